@@ -134,11 +134,12 @@ void Viewer::take_render_news() {
     stats_.shown(frame_, Clock::now());
   }
   if (news.saving) work_ = news.saving;
+  if (news.light_at_camera) show_light_at_camera(*news.light_at_camera, document_);
   if (news.exposure_ev) {
     found_exposure_ev_ = news.exposure_ev;
     document_.request.look.exposure_ev = *news.exposure_ev;
-    if (scene_ && !of_points_) history_.start(document_);
   }
+  if ((news.light_at_camera || news.exposure_ev) && scene_ && !of_points_) history_.start(document_);
   if (!news.notice.empty()) panels_.notice = news.notice;
   if (!news.error.empty()) panels_.error = news.error;
   if (!news.pick) return;

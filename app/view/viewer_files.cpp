@@ -47,6 +47,7 @@ void Viewer::open(Request request) {
     request.view.width = std::max(picture_px().x, 1U);
     request.view.height = std::max(picture_px().y, 1U);
     document_ = shown_as(*scene_, document_, request);
+    renderer_.open(nullptr, document_, picture_px(), {.light_at_camera = !request.look.lights});
   } else {
     load(request);
   }
@@ -86,7 +87,8 @@ void Viewer::show(OpenedScene opened) {
     document_ = std::move(before_);
     of_points_ = false;
   }
-  const bool exposes = !asked_exposure_ev_ && !opened.scene->stations.empty();
+  const Finds finds{!asked_exposure_ev_ && !opened.scene->stations.empty(),
+                    !opened.document.loaded->asked.look.lights};
   const bool kept = exposure_of(document_) != found_exposure_ev_;
   opened.document.request.look.exposure_ev = asked_exposure_ev_.value_or(kept ? exposure_of(document_) : 0.0);
   opened.document.mode = document_.mode;
@@ -112,7 +114,7 @@ void Viewer::show(OpenedScene opened) {
   panels_.object = panels_.light = 0;
   inspected_.reset();
   window_.set_title(scene_title(files) + " - splatray");
-  renderer_.open(scene_, document_, picture_px(), exposes);
+  renderer_.open(scene_, document_, picture_px(), finds);
 }
 
 /// Throws Error when there is no scene that a dropped file could change.

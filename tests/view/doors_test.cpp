@@ -16,6 +16,7 @@
 #include "engine/device/device.h"
 #include "preprocess/base/file_extension.h"
 #include "tests/cli/child_process.h"
+#include "tests/view/live_documents.h"
 
 namespace splatray {
 namespace {
@@ -41,15 +42,6 @@ std::string scan_pcd() {
   const std::string points = std::to_string(count);
   return "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + points +
          "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA ascii\n" + rows;
-}
-
-/// A cube of one material, open or a room around the camera.
-std::string cube_obj() {
-  std::string text;
-  for (int i = 0; i < 8; ++i)
-    text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
-            std::to_string(i >> 2 & 1) + "\n";
-  return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 }
 
 /// A triangle of brass.
@@ -216,12 +208,10 @@ class ViewerDoor : public Doors {
     choices = choices_text(first);
     Request save = asked;
     if (change) change(document, save);
-    const Shot shot =
-        resolve(request_of(document, asked.view.width, asked.view.height), *shared, document.loaded->facts);
-    if (document.loaded->is_scan && !asked.look.exposure_ev) {
-      live.match(document, ViewMode::shaded);
-      document.request.look.exposure_ev = preview_exposure_ev(shot, live.shown(), document.camera);
-    }
+    if (!asked.look.lights)
+      if (const auto light = live.light_at_camera(document)) show_light_at_camera(*light, document);
+    if (document.loaded->is_scan && !asked.look.exposure_ev)
+      document.request.look.exposure_ev = live.exposure_ev(document, {asked.view.width, asked.view.height});
     const SaveJob job = save_job(document, save);
     command = command_line(job.request);
     (void)save_pictures(job, live, [](const Work&) { return true; });
@@ -250,6 +240,7 @@ TEST_F(ViewerDoor, SavesTheProgramsPicture) {
            {"cube.obj", mesh + "--material=glass --environment=sky:30,120"},
            {"brass.gltf", small + "--mesh-points=500"},
            {"room.pcd", small + "--keep-noise --view=dollhouse"},
+           {"cube.obj", mesh + "--eye=0.5,0.5,0.9 --target=0.5,0.5,0"},
            {"cube.obj", small + "--mesh-points=2000"},
            {"cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1"},

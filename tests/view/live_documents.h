@@ -1,5 +1,7 @@
 /// A document of a scene small enough to trace in no time.
 #pragma once
+#include <string>
+
 #include <memory>
 
 #include "app/view/model/document_request.h"
@@ -29,6 +31,15 @@ inline Document disc_document(const Scene& scene) {
   document.bounds_min_world = scene.bounds_min_world;
   document.bounds_max_world = scene.bounds_max_world;
   return document;
+}
+
+/// A cube of one material, open or a room around the camera.
+inline std::string cube_obj() {
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
+            std::to_string(i >> 2 & 1) + "\n";
+  return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 }
 
 }  // namespace splatray

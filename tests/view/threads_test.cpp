@@ -5,6 +5,9 @@
 #include <mutex>
 
 #include "app/library/image_file.h"
+#include "app/library/request/command_line.h"
+#include "app/library/shot/scene_source.h"
+#include "app/view/model/document_request.h"
 #include "app/view/thread/load_thread.h"
 #include "app/view/thread/render_thread.h"
 #include "engine/device/vulkan/vulkan_device.h"
@@ -69,6 +72,24 @@ TEST_F(RenderThreadTest, FinishesThePicture) {
   thread.open(scene, document, SHOWN_SIZE);
   await([&](const RenderNews& news) {
     return news.frame && news.frame->samples == document.request.settings.samples;
+  });
+}
+
+/// And nothing of what it was not asked to find.
+TEST_F(RenderThreadTest, FindsTheLightThatAClosedRoomNeeds) {
+  write("cube.obj", cube_obj());
+  Request asked =
+      parse_command_line("splatray-render x --mesh-points=2000 --eye=0.5,0.5,0.9 --target=0.5,0.5,0");
+  asked.source.inputs = {file("cube.obj")};
+  LoadedScene loaded = load_scene(asked, {});
+  const SharedScene room = std::make_shared<const Scene>(std::move(loaded.scene));
+  const Document within = first_document(*room, loaded.facts, asked);
+  thread.open(room, within, SHOWN_SIZE, {.light_at_camera = true});
+  await([&](const RenderNews& news) {
+    EXPECT_FALSE(news.exposure_ev);
+    if (!news.light_at_camera) return false;
+    EXPECT_EQ(news.light_at_camera->position, within.camera.eye);
+    return true;
   });
 }
 

@@ -57,11 +57,14 @@ std::optional<SceneLight> headlight(SceneOnDevice& shown, const Camera& camera, 
 
 }  // namespace
 
+std::optional<SceneLight> light_at_camera(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
+  return shot.request.look.lights ? std::nullopt : headlight(shown, camera, shot.settings);
+}
+
 LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
   LitLook lit{shown.look()};
   lit.look.lights = lights_of_look(shot.settings.look, resolve_lights(shown.scene(), shot.request, camera));
-  const auto at_eye = shot.request.look.lights ? std::nullopt : headlight(shown, camera, shot.settings);
-  if (at_eye) {
+  if (const auto at_eye = light_at_camera(shot, shown, camera)) {
     lit.look.lights = {*at_eye};
     lit.notes.emplace_back("no light enters where the camera is, one is put there; --light says others");
   }

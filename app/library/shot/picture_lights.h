@@ -1,5 +1,6 @@
 /// The light that a picture is seen in, and how bright it is shown.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ struct LitLook {
   Look look;
   std::vector<std::string> notes{};  ///< sentences
 };
+
+/// The light at the camera where no light is asked for and none enters.
+[[nodiscard]] std::optional<SceneLight> light_at_camera(const Shot& shot, SceneOnDevice& shown,
+                                                        const Camera& camera);
 
 /// In the lights that the request asks for, or where it asks for none and none enters, in one at the camera.
 [[nodiscard]] LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera);

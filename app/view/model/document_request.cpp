@@ -123,6 +123,12 @@ Document shown_as(const Scene& scene, const Document& document, const Request& a
   return shown_in(scene, document, resolve(asked, scene, document.loaded->facts));
 }
 
+void show_light_at_camera(const SceneLight& light, Document& document) {
+  LoadedPart loaded = *document.loaded;
+  loaded.first.look.lights = document.request.look.lights = requested_lights({light});
+  document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
+}
+
 Request kept_request(const Document& document) {
   const LoadedPart& loaded = *document.loaded;
   Request kept;

@@ -28,6 +28,9 @@ namespace splatray {
 /// The document of the same scene, shown as the request asks for. Throws as first_document.
 [[nodiscard]] Document shown_as(const Scene& scene, const Document& document, const Request& asked);
 
+/// Shows a light at the camera, which is then that of the scene as it was loaded, instead of those that it was given.
+void show_light_at_camera(const SceneLight& light, Document& document);
+
 /// What is kept of a picture when another scene is opened: what is no scene's own.
 [[nodiscard]] Request kept_request(const Document& document);
 /// The request that loads the document's scene with more files and shows it as it is shown.

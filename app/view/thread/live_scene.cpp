@@ -1,6 +1,9 @@
 #include "app/view/thread/live_scene.h"
 
 #include "app/library/shot/lights.h"
+#include "app/library/shot/picture_lights.h"
+#include "app/library/shot/resolve.h"
+#include "app/view/model/document_request.h"
 
 namespace splatray {
 namespace {
@@ -35,6 +38,20 @@ void LiveScene::match(const Document& document, ViewMode mode) {
       lights_of_look(look_of(document), resolve_lights(*scene_, document.request, document.camera)));
   shown_.show_up(up_of(document));
   shown_.show_environment(document.request.look.environment);
+}
+
+std::optional<SceneLight> LiveScene::light_at_camera(const Document& document) {
+  match(document, ViewMode::shaded);
+  Request request = request_of(document, 1, 1);
+  request.look.lights.reset();
+  return splatray::light_at_camera(resolve(request, *scene_, document.loaded->facts), shown_,
+                                   document.camera);
+}
+
+double LiveScene::exposure_ev(const Document& document, glm::uvec2 size_px) {
+  match(document, ViewMode::shaded);
+  const Shot shot = resolve(request_of(document, size_px.x, size_px.y), *scene_, document.loaded->facts);
+  return preview_exposure_ev(shot, shown_, shot.view.camera);
 }
 
 /// The scene is uploaded again with other colours and radii: those of a copy that lives as long as that takes.

@@ -24,6 +24,11 @@ class LiveScene {
   /// that cannot be read, once: the one before stays.
   void match(const Document& document, ViewMode mode);
 
+  /// As picture_lights.h has it, though the document has lights; matches the document.
+  [[nodiscard]] std::optional<SceneLight> light_at_camera(const Document& document);
+  /// The exposure that suits the document's picture of `size_px` pixels, stops; matches the document.
+  [[nodiscard]] double exposure_ev(const Document& document, glm::uvec2 size_px);
+
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Look& look() const { return shown_.look(); }

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "app/library/measure/surface_point.h"
-#include "app/library/shot/picture_lights.h"
 #include "app/library/shot/resolve.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
@@ -36,13 +35,11 @@ void RenderThread::show(const Document& document, glm::uvec2 window_px) {
   open(nullptr, document, window_px);
 }
 
-void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 window_px, bool exposes) {
+void RenderThread::open(SharedScene scene, const Document& document, glm::uvec2 window_px, Finds finds) {
   std::optional<Document> copy(document);  // made, and the one before freed, without the mutex
   const std::lock_guard lock(mutex_);
-  if (scene) {
-    pending_.scene = std::move(scene);
-    pending_.exposes = exposes;
-  }
+  if (scene || finds.any()) pending_.finds = finds;
+  if (scene) pending_.scene = std::move(scene);
   std::swap(pending_.document, copy);
   pending_.window_px = window_px;
   changed_.notify_one();
@@ -90,7 +87,7 @@ void RenderThread::run() {
     attempt_to("tracing the picture", [this] {
       if (SharedFrame frame = progressive_.work([this] { return something_waits(); }))
         deliver([&](RenderNews& news) { news.frame = std::move(frame); });
-      if (std::exchange(exposes_, false)) expose();  // what is seen first does not wait for it
+      if (finds_.any()) find();  // what is seen first does not wait for it
     });
   }
 }
@@ -118,7 +115,7 @@ void RenderThread::fulfil(const Pending& pending) {
   if (pending.scene) progressive_.restart_with_scene();
   if (pending.points) progressive_.restart();
   if (!live_.is_open()) return;
-  if (pending.scene) exposes_ = pending.exposes;
+  if (pending.scene || pending.finds.any()) finds_ = pending.finds;
   if (pending.pick) answer(*pending.pick);
   if (pending.save) save_now(*pending.save);
 }
@@ -157,13 +154,19 @@ void RenderThread::show_points(bool others, glm::uvec2 window_px) {
   deliver([&](RenderNews& news) { news.frame = std::make_shared<const Frame>(std::move(frame)); });
 }
 
-/// Reports the exposure that suits the scene opened.
-void RenderThread::expose() {
-  const glm::uvec2 size = glm::max(progressive_.window_px(), glm::uvec2(1));
-  live_.match(shown_, ViewMode::shaded);
-  const Shot shot = resolve(request_of(shown_, size.x, size.y), live_.scene(), shown_.loaded->facts);
-  const double ev = preview_exposure_ev(shot, live_.shown(), shot.view.camera);
-  deliver([&](RenderNews& news) { news.exposure_ev = ev; });
+/// Reports the light and the exposure that suit the scene opened.
+void RenderThread::find() {
+  const Finds finds = std::exchange(finds_, {});
+  const std::optional<SceneLight> light =
+      finds.light_at_camera ? live_.light_at_camera(shown_) : std::nullopt;
+  if (light) show_light_at_camera(*light, shown_);
+  std::optional<double> exposure_ev;
+  if (finds.exposure)
+    exposure_ev = live_.exposure_ev(shown_, glm::max(progressive_.window_px(), glm::uvec2(1)));
+  deliver([&](RenderNews& news) {
+    news.light_at_camera = light;
+    news.exposure_ev = exposure_ev;
+  });
 }
 
 void RenderThread::answer(const PickRequest& request) {

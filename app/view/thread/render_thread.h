@@ -38,14 +38,21 @@ struct Pick {
   SurfacePoint point{};  ///< PickFor::measure
 };
 
+/// What of a scene opened is found with its picture.
+struct Finds {
+  bool exposure = false, light_at_camera = false;
+  [[nodiscard]] bool any() const { return exposure || light_at_camera; }
+};
+
 /// What has come from the render thread since it was last asked.
 struct RenderNews {
   SharedFrame frame;
   std::optional<Pick> pick;
-  std::optional<double> exposure_ev;  ///< that suits the scene opened, where open asked for it
-  std::optional<Work> saving;         ///< nothing: no picture is being saved
-  std::string notice;                 ///< a sentence
-  std::string error;                  ///< a sentence
+  std::optional<double> exposure_ev;          ///< that suits the scene opened, where open asked for it
+  std::optional<SceneLight> light_at_camera;  ///< that the scene opened needs, where open asked for it
+  std::optional<Work> saving;                 ///< nothing: no picture is being saved
+  std::string notice;                         ///< a sentence
+  std::string error;                          ///< a sentence
 };
 
 /// All members are for one thread, the window's, and return at once.
@@ -60,8 +67,8 @@ class RenderThread {
 
   /// From now on shows this document of the scene opened; the newest counts.
   void show(const Document& document, glm::uvec2 window_px);
-  /// As show, of another scene; `exposes`: its picture's exposure is reported as soon as it is known.
-  void open(SharedScene scene, const Document& document, glm::uvec2 window_px, bool exposes = false);
+  /// As show, of another scene, or null: of the same. What it `finds` is reported behind its first picture.
+  void open(SharedScene scene, const Document& document, glm::uvec2 window_px, Finds finds = {});
   /// Shows points of this document until a scene is opened; null: what was shown before, anew.
   void open_points(SharedPoints points, const Document& document, glm::uvec2 window_px);
   /// The newest counts.
@@ -80,7 +87,7 @@ class RenderThread {
     std::optional<SharedPoints> points;
     std::optional<Document> document;
     glm::uvec2 window_px{0};
-    bool exposes = false;
+    Finds finds;
     std::optional<PickRequest> pick;
     std::optional<SaveJob> save;
     [[nodiscard]] bool any() const { return scene || points || document || pick || save; }
@@ -91,7 +98,7 @@ class RenderThread {
   void fulfil(const Pending& pending);
   void open_now(const Pending& pending);
   void show_points(bool others, glm::uvec2 window_px);
-  void expose();
+  void find();
   void answer(const PickRequest& request);
   void save_now(const SaveJob& job);
   void attempt_to(const char* doing, const std::function<void()>& step);
@@ -101,10 +108,10 @@ class RenderThread {
   std::unique_ptr<Device> device_;
   LiveScene live_{*device_};
   Progressive progressive_{live_, device_->info().name};
-  Document shown_;        ///< by the thread
-  bool exposes_ = false;  ///< the scene's exposure is to be found
-  SharedPoints points_;   ///< shown instead of the scene; null = none are
-  View points_view_;      ///< in which they were drawn last
+  Document shown_;       ///< by the thread
+  Finds finds_;          ///< what is yet to be found of the scene
+  SharedPoints points_;  ///< shown instead of the scene; null = none are
+  View points_view_;     ///< in which they were drawn last
   std::function<void()> wake_;
 
   std::mutex mutex_;  ///< of what follows
