@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -197,6 +198,9 @@ struct SeenPoints {
 /// Hears them on the reading thread, at intervals.
 using PointsListener = std::function<void(const SeenPoints&)>;
 
+/// Which nodes of files in levels (base/levels.h) are read, ascending, by the files' paths; files that are not named are read whole.
+using ChosenNodes = std::map<std::filesystem::path, std::vector<std::uint32_t>>;
+
 struct ReadOptions {
   /// Points to sample on all meshes together, by area; 0 = one point per used vertex.
   std::uint64_t samples = 0;
@@ -206,7 +210,8 @@ struct ReadOptions {
   bool keep_meshes = false;
   /// For scans whose head counts their points, which are not read then; those of other formats are.
   bool heads_only = false;
-  bool clip = true;  ///< points on meshes know where the surface ends or has a crease
+  ChosenNodes nodes;  ///< of scans in levels
+  bool clip = true;   ///< points on meshes know where the surface ends or has a crease
   /// Edges that turn by more, and are not shaded smoothly, are creases.
   double crease_degrees = BuildParams{}.crease_degrees;
   bool turn_outwards = false;  ///< closed meshes of all objects, not only of dielectrics, are turned outwards

@@ -100,7 +100,7 @@ int render(int argc, char** argv) {
   shown.show_environment(shot.environment, note);
   shown.open_and_free(loaded.scene);
   times.upload_ms = watch.lap_ms();
-  expose(shot, shown);
+  expose(shot, shown, loaded.facts);
   times.exposure_ms = watch.lap_ms();
   report_choices(shot);
   const SequenceRecord record = make(shot, shown, reporting_on(progress, shot));

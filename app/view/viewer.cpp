@@ -22,6 +22,7 @@ using Clock = ViewStats::Clock;
 constexpr int FRAMES_TO_SETTLE = 3;
 constexpr std::chrono::milliseconds LONGEST_STANDSTILL{100};  ///< of the window during a drag
 constexpr double SIGNAL_SECONDS = 0.5;                        ///< between looks for an interrupt
+constexpr double RESTING_SECONDS = 0.3;                       ///< of a camera, before what it sees is loaded
 constexpr double CARET_SECONDS = 0.2;  ///< between looks at a text that is being written
 
 bool flies_fast(const Window& window) {
@@ -72,7 +73,8 @@ void Viewer::run() {
       frames_left = FRAMES_TO_SETTLE;
     else if (frames_left == 0)
       remember_window(), remember_choices();
-    if (frames_left == 0 && !presenter_.gui().wants_keyboard() && panels_.notice.empty()) continue;
+    if (frames_left == 0 && !presenter_.gui().wants_keyboard() && panels_.notice.empty() && !is_to_refine())
+      continue;
     frames_left = std::max(frames_left - 1, 0);
     poll();
     presenter_.gui().begin();
@@ -105,11 +107,15 @@ bool Viewer::is_worth_drawing() {
 }
 
 /// How long nothing needs to be drawn, seconds.
-double Viewer::patience() const { return presenter_.gui().wants_keyboard() ? CARET_SECONDS : SIGNAL_SECONDS; }
+double Viewer::patience() const {
+  if (is_to_refine()) return RESTING_SECONDS;
+  return presenter_.gui().wants_keyboard() ? CARET_SECONDS : SIGNAL_SECONDS;
+}
 
 void Viewer::poll() {
   take_load_news();
   take_render_news();
+  refine();
   const SceneFiles dropped = window_.take_dropped();
   if (!dropped.empty()) attempt_to("opening " + scene_title(dropped), [&] { take_files(dropped); });
 }
@@ -122,7 +128,26 @@ void Viewer::take_load_news() {
   if (!news.error.empty()) panels_.error = news.error;
   if (news.points) attempt_to("showing points", [&] { show(std::move(*news.points)); });
   if (news.opened) attempt_to("showing the scene", [&] { show(std::move(*news.opened)); });
+  if (news.refined && scene_ && document_.loaded->facts.overview) {
+    scene_ = std::move(news.refined);
+    renderer_.open(scene_, document_, picture_px());
+  }
   if (!news.progress) leave_points();
+}
+
+/// Has what the view needs of a scene in levels loaded, once it rests.
+void Viewer::refine() {
+  if (!scene_ || of_points_ || !document_.loaded->facts.overview) return;
+  const Clock::time_point now = Clock::now();
+  const View view{document_.camera, picture_px().x, picture_px().y};
+  if (view.camera != resting_.camera || view.width != resting_.width || view.height != resting_.height) {
+    resting_ = view;
+    rests_since_ = now;
+  }
+  const std::chrono::duration<double> resting(RESTING_SECONDS);
+  if (view.width == 0 || !is_to_refine() || now - rests_since_ < resting) return;
+  rests_since_ = {};
+  loader_.refine(request_of(document_, view.width, view.height));
 }
 
 void Viewer::take_render_news() {

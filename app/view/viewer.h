@@ -31,6 +31,7 @@ class Viewer {
  private:
   void poll();
   void take_load_news();
+  void refine();
   void take_render_news();
   void attempt_to(const std::string& doing, const std::function<void()>& step);
   void open(const SceneFiles& files);
@@ -73,6 +74,7 @@ class Viewer {
   /// Whether there is something to look at and move about.
   [[nodiscard]] bool has_view() const { return scene_ || of_points_; }
   [[nodiscard]] double patience() const;
+  [[nodiscard]] bool is_to_refine() const { return rests_since_ != ViewStats::Clock::time_point{}; }
 
   UserMemory user_{user_state_path()};
   std::string unkept_;         ///< why the last change of user_ could not be kept; empty = it was
@@ -102,9 +104,11 @@ class Viewer {
   SharedFrame frame_;
   std::optional<Inspected> inspected_;
   std::optional<Work> work_;
-  ViewStats::Clock::time_point flown_{};  ///< when fly_on last moved
-  bool has_new_frame_ = false;            ///< frame_ has not been drawn
-  ViewStats::Clock::time_point drawn_{};  ///< when the window was drawn last
+  ViewStats::Clock::time_point flown_{};        ///< when fly_on last moved
+  bool has_new_frame_ = false;                  ///< frame_ has not been drawn
+  ViewStats::Clock::time_point drawn_{};        ///< when the window was drawn last
+  View resting_{};                              ///< the view that was seen last, of a scene in levels
+  ViewStats::Clock::time_point rests_since_{};  ///< unset: what it needs is there, or asked for
   bool closing_ = false;
 };
 

@@ -113,6 +113,7 @@ void Viewer::show(OpenedScene opened) {
   viewpoint_ = Viewpoint::automatic;
   panels_.object = panels_.light = 0;
   inspected_.reset();
+  resting_ = {};
   window_.set_title(scene_title(files) + " - splatray");
   renderer_.open(scene_, document_, picture_px(), finds);
 }

@@ -204,7 +204,7 @@ class ViewerDoor : public Doors {
     LiveScene live(*device);
     live.open(shared, document.request.look.attributes);
     live.match(document, ViewMode::shaded);
-    expose(first, live.shown());
+    expose(first, live.shown(), document.loaded->facts);
     choices = choices_text(first);
     Request save = asked;
     if (change) change(document, save);

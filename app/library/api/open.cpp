@@ -30,6 +30,7 @@ Scene open(std::span<const std::filesystem::path> files, const Request& asked, c
   return guarded(progress, [&](ProgressRelay& relay) {
     splatray::Request request = RequestAccess::inner(asked);
     if (files.empty()) refuse("no file", "at least one");
+    if (!request.source.lod) request.source.lod = 0.0;  // who traces rays expects all of a scan
     request.source.inputs.assign(files.begin(), files.end());
     require_inputs(request.source);
     auto impl = std::make_shared<Scene::Impl>();

@@ -30,6 +30,19 @@ splatray::Request request_for(const splatray::Request& opened, const splatray::R
   return request;
 }
 
+/// The scene, or of files in levels the one that the request's pictures need.
+std::shared_ptr<Scene::Impl> scene_for(const std::shared_ptr<Scene::Impl>& opened,
+                                       const splatray::Request& asked, ProgressRelay& relay) {
+  if (!opened->loaded.facts.overview) return opened;
+  const splatray::Request request = request_for(opened->asked, asked);
+  auto other = std::make_shared<Scene::Impl>();
+  other->loaded = load_needed(request, in_levels(request), opened->loaded.facts, {std::ref(relay), {}},
+                              opened->loaded.nodes);
+  if (other->loaded.nodes == opened->loaded.nodes) return opened;
+  other->asked = opened->asked;
+  return other;
+}
+
 /// A shot, and what the scene's objects look like in it.
 struct Resolved {
   Shot shot;
@@ -49,10 +62,10 @@ Resolved resolve_for(const Scene::Impl& impl, const splatray::Request& asked) {
   return resolved;
 }
 
-void show(Resolved& resolved, SceneOnDevice& shown) {
+void show(Resolved& resolved, const SceneFacts& facts, SceneOnDevice& shown) {
   shown.show_environment(resolved.shot.environment);
   shown.show_materials(std::move(resolved.materials));
-  expose(resolved.shot, shown);
+  expose(resolved.shot, shown, facts);
 }
 
 std::vector<Choice> choices_of(const Shot& shot) {
@@ -87,15 +100,16 @@ Image outer_image(const splatray::Image& made, const Shot& shot) {
 
 Image render(const Scene& scene, const Request& asked, const Progress& progress) {
   return guarded(progress, [&](ProgressRelay& relay) {
-    const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
-    Resolved resolved = resolve_for(*impl, RequestAccess::inner(asked));
+    const splatray::Request& inner = RequestAccess::inner(asked);
+    const std::shared_ptr<Scene::Impl> impl = scene_for(SceneAccess::impl(scene), inner, relay);
+    Resolved resolved = resolve_for(*impl, inner);
     Shot& shot = resolved.shot;
     if (shot.is_sequence() || shot.is_orbit())
       refuse("a sequence of pictures or a page", "one picture; make() writes the others");
     require_memory(2 * made_image_bytes(shot), "a picture of " + std::to_string(shot.view.width) + "x" +
                                                    std::to_string(shot.view.height) + " pixels");
     return impl->on_device(relay, [&](SceneOnDevice& shown) {
-      show(resolved, shown);
+      show(resolved, impl->loaded.facts, shown);
       const auto progressed = [&relay](double share) { return relay("tracing", share); };
       return outer_image(make_picture(shot, shown, shot.view.camera, progressed).image, shot);
     });
@@ -104,15 +118,16 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
 
 Made make(const Scene& scene, const Request& asked, const Progress& progress) {
   return guarded(progress, [&](ProgressRelay& relay) {
-    const std::shared_ptr<Scene::Impl> impl = SceneAccess::impl(scene);
-    Resolved resolved = resolve_for(*impl, RequestAccess::inner(asked));
+    const splatray::Request& inner = RequestAccess::inner(asked);
+    const std::shared_ptr<Scene::Impl> impl = scene_for(SceneAccess::impl(scene), inner, relay);
+    Resolved resolved = resolve_for(*impl, inner);
     Shot& shot = resolved.shot;
     if (shot.request.output.path.empty()) refuse("no \"output\"", "the name of a file");
     require_no_inputs_replaced(shot.request, shot.frames);
     require_outputs_writable(shot.request);
     require_picture_memory(shot);
     return impl->on_device(relay, [&](SceneOnDevice& shown) {
-      show(resolved, shown);
+      show(resolved, impl->loaded.facts, shown);
       Made made{{}, choices_of(shot), shot.notes};
       const auto pictures = static_cast<double>(shot.frames.size());
       const SequenceRecord record = splatray::make(
@@ -130,7 +145,8 @@ Made make(const Scene& scene, const Request& asked, const Progress& progress) {
 
 Image make_picture(const Request& request, const Progress& progress) {
   const splatray::Request& inner = RequestAccess::inner(request);
-  return render(open(inner.source.inputs, request, progress), request, progress);
+  const Request asked = inner.source.lod ? request : Request(request).set("lod", 1);
+  return render(open(inner.source.inputs, asked, progress), asked, progress);
 }
 
 }  // namespace splatray::api

@@ -39,6 +39,10 @@ struct Request {
     BuildParams params;
     ScanOptions scans;
     unsigned threads = 0;  ///< 0 = all cores
+    /// Spacing of the points that are read of files in levels, in pixels of the pictures; 0: all are; unset: 1.
+    std::optional<double> lod;
+    /// What the points of files in levels may take; 0: most of what there is.
+    std::uint64_t memory_bytes = 0;
 
     bool operator==(const Source&) const = default;
   };

@@ -8,6 +8,7 @@
 #include "app/library/display_image.h"
 #include "app/library/shot/lights.h"
 #include "app/library/shot/picture_notes.h"
+#include "app/library/user_folders.h"
 #include "engine/base/number_text.h"
 #include "engine/base/rank.h"
 #include "engine/scene/look_style.h"
@@ -89,9 +90,23 @@ double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera&
   return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
 }
 
-void expose(Shot& shot, SceneOnDevice& shown) {
+namespace {
+
+/// That of the overview in the look of what is shown.
+double overview_exposure_ev(const Shot& shot, const SceneOnDevice& shown, const Scene& overview) {
+  SceneOnDevice whole(shown.device(), {.pipeline_folder = user_cache_folder()});
+  whole.open(overview);
+  whole.show_environment(shot.environment);
+  whole.show_materials(shown.look().materials);
+  return preview_exposure_ev(shot, whole, first_camera(shot, overview));
+}
+
+}  // namespace
+
+void expose(Shot& shot, SceneOnDevice& shown, const SceneFacts& facts) {
   if (!shot.exposes) return;
-  const double ev = preview_exposure_ev(shot, shown, first_camera(shot, shown.scene()));
+  const double ev = facts.overview ? overview_exposure_ev(shot, shown, *facts.overview)
+                                   : preview_exposure_ev(shot, shown, first_camera(shot, shown.scene()));
   shot.request.look.exposure_ev = ev;
   shot.exposes = false;
   // Behind what decides what is seen, before what is done to the picture.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/library/shot/scene_facts.h"
 #include "app/library/shot/scene_on_device.h"
 #include "app/library/shot/shot.h"
 
@@ -26,7 +27,8 @@ struct LitLook {
 /// and high. Parts of a picture, and all pictures of a run, have one exposure by it.
 [[nodiscard]] double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera);
 
-/// Chooses the exposure where that is left to the picture, by the first of the shot's pictures.
-void expose(Shot& shot, SceneOnDevice& shown);
+/// Chooses the exposure where that is left to the picture, by the first of the shot's pictures; of a scene that has an overview by that, so
+/// that it does not depend on what was read.
+void expose(Shot& shot, SceneOnDevice& shown, const SceneFacts& facts);
 
 }  // namespace splatray

@@ -31,6 +31,13 @@ void resolve_view(const SceneFacts& facts, Shot& shot) {
   note(shot, "view", viewpoint_name(view.viewpoint));
 }
 
+/// How much of a scan was read.
+void resolve_lod(const SceneFacts& facts, Shot& shot) {
+  if (!facts.overview || shot.request.source.lod == facts.lod) return;
+  shot.request.source.lod = facts.lod;
+  note(shot, "lod", number_text(facts.lod));
+}
+
 bool is_inside(const SceneFacts& facts, const Request& request) {
   return facts.kind == SceneKind::room && request.view.viewpoint == Viewpoint::inside;
 }
@@ -201,14 +208,16 @@ Shot draft(const Request& asked) {
 Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) {
   require_consistent(asked);
   Shot shot = draft(asked);
+  resolve_lod(facts, shot);
   resolve_view(facts, shot);
   resolve_color_by(facts, shot);
   resolve_scan_look(scene, facts, shot);
   Request& request = shot.request;
   if (request.view.sheet) resolve_sheet(request);
-  shot.settings = resolve_settings(scene, request);
+  const Scene& whole = facts.overview ? *facts.overview : scene;
+  shot.settings = resolve_settings(whole, request);
   if (request.view.sheet) {
-    Sheet sheet = drawn_sheet(scene, facts, request);
+    Sheet sheet = drawn_sheet(whole, facts, request);
     require_part_of(request.view, sheet.width, sheet.height);
     set_pixels(sheet.width, sheet.height, shot);
     shot.view.camera = sheet.camera();
@@ -216,9 +225,11 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
     shot.output = std::move(sheet);
   } else {
     shot.view.camera =
-        resolve_camera(scene, request, static_cast<double>(shot.view.width) / shot.view.height);
+        resolve_camera(whole, request, static_cast<double>(shot.view.width) / shot.view.height);
   }
   resolve_reach(scene, shot.settings.region, request.settings.reach_world);
+  if (facts.overview && request.settings.reach_world == 0.0)
+    request.settings.reach_world = REACH_SHARE * whole.diagonal_world();
   shot.settings.reach_world = request.settings.reach_world;
   choose_denoise(shot);
   shot.exposes = !request.look.exposure_ev && (request.look.exposure_auto || !scene.stations.empty());

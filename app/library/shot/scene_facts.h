@@ -1,5 +1,7 @@
 /// What a scene is, as far as that decides how it is shown.
 #pragma once
+#include <memory>
+
 #include "app/library/attributes.h"
 #include "engine/image/scan_kind.h"
 #include "engine/image/view.h"
@@ -14,6 +16,10 @@ struct SceneFacts {
   bool has_intensity = false;              ///< that varies
   std::string color_by{};  ///< the colours that it is shown in were chosen for it; empty: they are its own
   ColorLegend legend{};    ///< of the colours that it is shown in
+  /// The first levels of a scan of which the scene has what one request's pictures need, else null: what is chosen of a scene's
+  /// shape and size is chosen of these, whatever was read.
+  std::shared_ptr<const Scene> overview{};
+  double lod = 0.0;  ///< spacing of the scene's points in these pictures, pixels; 0: all of the scan was read
 };
 
 /// Those of a scene that is shown in its own colours and has its pools.

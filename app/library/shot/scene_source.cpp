@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "engine/file/scene_file.h"
+#include "engine/image/upright.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/read/scan/missing_attributes.h"
@@ -55,15 +56,13 @@ void show_as_asked(const Request& request, const LoadListener& listener, LoadedS
   loaded.facts.legend = show_attributes(scene, attributes);
 }
 
-}  // namespace
-
-LoadedScene load_scene(const Request& request, const LoadListener& listener) {
+/// The scene of the inputs, of those in levels the nodes that are named.
+LoadedScene load_nodes(const Request& request, const ChosenNodes& nodes, const LoadListener& listener) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   LoadedScene loaded;
   report_progress(listener, "reading", 0.0);
   const std::vector<std::filesystem::path>& inputs = request.source.inputs;
-  require_scene_alone(inputs);
   if (is_scene_file(inputs.front())) {
     if (request.source.params.ground)
       throw Error(ExitCode::usage,
@@ -76,10 +75,62 @@ LoadedScene load_scene(const Request& request, const LoadListener& listener) {
     const Progress progress = watching_memory(listener.progress);
     ReadOptions reading = reading_of(request, progress);
     reading.points = listener.points;
+    reading.nodes = nodes;
     build(read_input(inputs, reading), request, listener, progress, loaded);
   }
   loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   show_as_asked(request, listener, loaded);
+  return loaded;
+}
+
+/// The request with what is chosen of the overview's values.
+Request as_chosen(const Request& request, const SceneFacts& facts) {
+  Request chosen = request;
+  AttributeOptions& attributes = chosen.look.attributes;
+  attributes = resolve_attributes(request, facts);
+  const ColorLegend& legend = facts.legend;
+  if (!attributes.color_range && !legend.ramp.empty()) attributes.color_range = {legend.low, legend.high};
+  chosen.look.up = facts.overview->up;
+  return chosen;
+}
+
+}  // namespace
+
+SceneFacts load_overview(const Request& request, const InLevels& files, const LoadListener& listener) {
+  LoadedScene overview = load_nodes(request, overview_of(files), {listener.progress, {}, listener.points});
+  overview.facts.overview = std::make_shared<const Scene>(std::move(overview.scene));
+  return std::move(overview.facts);
+}
+
+LoadedScene load_needed(const Request& request, const InLevels& files, const SceneFacts& overview,
+                        const LoadListener& listener, const ChosenNodes& shown) {
+  const Scene& whole = *overview.overview;
+  const Shot shot = resolve(request, whole, overview);
+  NeededNodes needed = needed_nodes(request, all_cameras(shot, whole), shot.view, files);
+  LoadedScene loaded;
+  if (needed.nodes != shown) {
+    if (listener.note)
+      listener.note("read " + std::to_string(files.points(needed.nodes)) + " of " +
+                    std::to_string(files.points()) +
+                    " points in levels, as the pictures need; --lod 0 reads all");
+    loaded = load_nodes(as_chosen(request, overview), needed.nodes, {listener.progress, listener.note});
+  }
+  ColorLegend legend = std::move(loaded.facts.legend);
+  loaded.facts = overview;
+  loaded.facts.legend = std::move(legend);
+  loaded.facts.lod = needed.lod;
+  loaded.nodes = std::move(needed.nodes);
+  return loaded;
+}
+
+LoadedScene load_scene(const Request& request, const LoadListener& listener) {
+  require_scene_alone(request.source.inputs);
+  const InLevels files = in_levels(request);
+  if (files.paths.empty()) return load_nodes(request, {}, listener);
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  LoadedScene loaded = load_needed(request, files, load_overview(request, files, listener), listener);
+  loaded.load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return loaded;
 }
 

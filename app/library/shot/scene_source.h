@@ -5,6 +5,7 @@
 
 #include "app/library/request/request.h"
 #include "app/library/shot/scene_facts.h"
+#include "app/library/shot/scene_levels.h"
 #include "preprocess/build.h"
 
 namespace splatray {
@@ -15,6 +16,7 @@ struct LoadedScene {
   SceneFacts facts{};
   double load_ms = 0.0;             ///< reading and preprocess
   std::optional<BuildStats> build;  ///< unless read from a .soct
+  ChosenNodes nodes{};              ///< that it has, of files in levels; empty: all
 };
 
 /// Who hears of loading, on its thread; each may be empty.
@@ -24,9 +26,18 @@ struct LoadListener {
   PointsListener points{};                       ///< as ReadOptions::points
 };
 
-/// Reads or preprocesses the scene; applies --material, --object, --up (else upright of upright.h), and shows the attributes that are
+/// Reads or preprocesses the scene, of files in levels what the request's pictures need; applies --material, --object, --up (else upright of upright.h), and shows the attributes that are
 /// asked for or suit the scene. Throws Error.
 [[nodiscard]] LoadedScene load_scene(const Request& request, const LoadListener& listener);
+
+/// The facts of the first levels of files in levels, with these as their overview. Throws Error.
+[[nodiscard]] SceneFacts load_overview(const Request& request, const InLevels& files,
+                                       const LoadListener& listener);
+/// The scene that the request's pictures need of files of which this is the overview; without a scene where these are the nodes that are
+/// `shown`. Throws Error.
+[[nodiscard]] LoadedScene load_needed(const Request& request, const InLevels& files,
+                                      const SceneFacts& overview, const LoadListener& listener,
+                                      const ChosenNodes& shown = {});
 
 /// The same of objects that are in memory, without what files alone have; their numbers stay. Throws Error.
 [[nodiscard]] LoadedScene load_objects(Input input, const Request& request, const LoadListener& listener);

@@ -1,6 +1,34 @@
 #include "app/library/shot/shot.h"
 
+#include <numbers>
+
 namespace splatray {
+namespace {
+
+std::vector<Camera> orbit_cameras(const Camera& still, const glm::dvec3& up, std::uint32_t columns,
+                                  std::uint32_t rows) {
+  const glm::dmat3 upright = upright_axes(up);
+  const glm::dvec3 from_target = still.eye - still.target;
+  const double distance = glm::length(from_target);
+  glm::dvec3 level = from_target - glm::dot(from_target, upright[1]) * upright[1];
+  level = glm::length(level) > 1e-6 * distance ? glm::normalize(level) : upright[2];
+  std::vector<Camera> cameras;
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    Camera camera = still;
+    if (rows > 1) {
+      const double share = static_cast<double>(row) / (rows - 1);
+      const double elevation =
+          (ORBIT_LOWEST_DEG + (ORBIT_HIGHEST_DEG - ORBIT_LOWEST_DEG) * share) * std::numbers::pi / 180.0;
+      camera.eye = still.target + distance * (std::cos(elevation) * level + std::sin(elevation) * upright[1]);
+      camera.up = upright[1];
+    }
+    for (std::uint32_t column = 0; column < columns; ++column)
+      cameras.push_back(turned_camera(camera, up, static_cast<double>(column) / columns));
+  }
+  return cameras;
+}
+
+}  // namespace
 
 Settings Shot::traced_settings() const {
   Settings traced = settings;
@@ -21,6 +49,15 @@ Camera first_camera(const Shot& shot, const Scene& scene) {
   const auto* sequence = std::get_if<Sequence>(&shot.output);
   const bool has_path = sequence != nullptr && !sequence->path.empty();
   return frame_camera(shot, has_path ? sequence->path.front().frame : 0, scene);
+}
+
+std::vector<Camera> all_cameras(const Shot& shot, const Scene& scene) {
+  if (const auto* orbit = std::get_if<Orbit>(&shot.output))
+    return orbit_cameras(shot.view.camera, shot.request.look.up.value_or(scene.up), orbit->columns,
+                         orbit->rows);
+  std::vector<Camera> cameras;
+  for (const SequenceFrame& frame : shot.frames) cameras.push_back(frame_camera(shot, frame.number, scene));
+  return cameras;
 }
 
 std::string choices_text(const Shot& shot) {

@@ -46,6 +46,11 @@ struct Shot {
 /// That of the first of all frames, though it may not be asked for.
 [[nodiscard]] Camera first_camera(const Shot& shot, const Scene& scene);
 
+/// Those of all pictures; of an orbit: about the still one's target, as far away, `columns` all around at each of `rows` heights, one:
+/// its own, several: from ORBIT_LOWEST_DEG to ORBIT_HIGHEST_DEG above the horizon, row by row from the lowest.
+inline constexpr double ORBIT_LOWEST_DEG = 10.0, ORBIT_HIGHEST_DEG = 65.0;
+[[nodiscard]] std::vector<Camera> all_cameras(const Shot& shot, const Scene& scene);
+
 /// The choices as options of splatray-render, "--view inside --look scan"; empty where there are none.
 [[nodiscard]] std::string choices_text(const Shot& shot);
 

@@ -22,6 +22,14 @@ std::string stage_text(const char* stage, const Request& request) {
   return std::string(stage) + " " + scene_title(request.source.inputs);
 }
 
+/// The request of the scene as its files have it: the document keeps its materials, the render thread colours it.
+Request plain_scene_of(Request request) {
+  request.look.objects.clear();
+  request.look.attributes = {};
+  request.look.attributes.color_by = "rgb";
+  return request;
+}
+
 }  // namespace
 
 LoadThread::LoadThread(std::function<void()> wake, SceneCache cache)
@@ -45,6 +53,12 @@ void LoadThread::load(const Request& request) {
   changed_.notify_one();
 }
 
+void LoadThread::refine(const Request& request) {
+  const std::lock_guard lock(mutex_);
+  refining_ = request;
+  changed_.notify_one();
+}
+
 void LoadThread::cancel() {
   const std::lock_guard lock(mutex_);
   cancelled_ = true;
@@ -61,15 +75,18 @@ LoadNews LoadThread::poll() {
 void LoadThread::run() {
   while (true) {
     Request asked;
+    bool refines = false;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return ending_ || waiting_; });
+      changed_.wait(lock, [this] { return ending_ || waiting_ || refining_; });
       if (ending_) return;
-      asked = std::move(*std::exchange(waiting_, {}));
+      refines = !waiting_;
+      asked = std::move(*std::exchange(refines ? refining_ : waiting_, {}));
+      refining_.reset();  // of the scene before, or taken
       cancelled_ = false;
     }
-    const std::optional<Failure> failure =
-        attempt("loading " + scene_title(asked.source.inputs), [&] { load_now(asked); });
+    const std::optional<Failure> failure = attempt("loading " + scene_title(asked.source.inputs),
+                                                   [&] { refines ? refine_now(asked) : load_now(asked); });
     deliver([&](LoadNews& news) {
       if (!waiting_) news.progress.reset();
       if (failure && !failure->interrupted) news.error = failure->sentence;
@@ -117,26 +134,33 @@ LoadedScene LoadThread::load_and_show_points(const Request& request, const LoadL
   return load_scene(request, watching);
 }
 
+LoadListener LoadThread::listener_for(const Request& asked) {
+  return {[this, asked](const char* stage, double share) {
+            deliver([&](LoadNews& news) {
+              if (!cancelled_) news.progress = {stage_text(stage, asked), share};
+            });
+            return !is_cancelled();
+          },
+          [this](const std::string& note) { deliver([&](LoadNews& news) { add_line(news.notice, note); }); }};
+}
+
 void LoadThread::load_now(const Request& asked) {
-  const LoadListener listener{
-      [&](const char* stage, double share) {
-        deliver([&](LoadNews& news) {
-          if (!cancelled_) news.progress = {stage_text(stage, asked), share};
-        });
-        return !is_cancelled();
-      },
-      [&](const std::string& note) { deliver([&](LoadNews& news) { add_line(news.notice, note); }); }};
-  Request request = asked;
-  request.look.objects.clear();  // the document keeps the materials without them
-  request.look.attributes = {};  // the render thread applies them
-  request.look.attributes.color_by = "rgb";
+  const LoadListener listener = listener_for(asked);
+  const Request request = plain_scene_of(asked);
   bool worth_keeping = false;
-  Scene scene = made_scene(request, listener, worth_keeping);
-  const SceneFacts facts = facts_of(scene);
-  const Shot shot = resolve(asked, scene, facts);
+  SharedScene scene;
+  SceneFacts facts;
+  levels_ = {in_levels(request), {}, {}};
+  if (levels_.files.paths.empty()) {
+    scene = std::make_shared<const Scene>(made_scene(request, listener, worth_keeping));
+    facts = facts_of(*scene);
+  } else {
+    levels_.facts = facts = load_overview(request, levels_.files, listener);
+    scene = facts.overview;
+  }
+  const Shot shot = resolve(asked, *scene, facts);
   if (!shot.of.empty() && !shot.choices.empty()) listener.note(shot.of + ": " + choices_text(shot));
-  OpenedScene opened{nullptr, first_document(scene, facts, asked, shot)};
-  opened.scene = std::make_shared<const Scene>(std::move(scene));
+  OpenedScene opened{scene, first_document(*scene, facts, asked, shot)};
   const SharedScene kept = worth_keeping ? opened.scene : nullptr;
   if (is_cancelled()) return;
   deliver([&](LoadNews& news) {
@@ -144,6 +168,19 @@ void LoadThread::load_now(const Request& asked) {
     news.progress.reset();
   });
   if (kept) cache_.keep(request, *kept, [this](const char*, double) { return !is_cancelled(); });
+}
+
+void LoadThread::refine_now(const Request& asked) {
+  if (levels_.files.paths.empty()) return;
+  const Request request = plain_scene_of(asked);
+  LoadedScene loaded =
+      load_needed(request, levels_.files, levels_.facts, {listener_for(asked).progress, {}}, levels_.shown);
+  if (is_cancelled() || loaded.nodes == levels_.shown) return;
+  levels_.shown = std::move(loaded.nodes);
+  deliver([&](LoadNews& news) {
+    news.refined = std::make_shared<const Scene>(std::move(loaded.scene));
+    news.progress.reset();
+  });
 }
 
 /// `change` runs with the mutex held.

@@ -32,6 +32,7 @@ struct OpenedScene {
 struct LoadNews {
   std::optional<OpenedPoints> points;  ///< to look at until the scene comes
   std::optional<OpenedScene> opened;
+  SharedScene refined;  ///< of the scene opened last: what the view asked for needs; null: nothing new
   std::optional<LoadProgress> progress;  ///< of what is being loaded, as it is now
   std::string notice;                    ///< sentences, one a line
   std::string error;                     ///< a sentence
@@ -49,6 +50,9 @@ class LoadThread {
 
   /// Starts to load; ends what is being loaded. The picture's size gives the aspect of the first view.
   void load(const Request& request);
+  /// Starts to load what the request's picture needs of the scene in levels that was opened last; behind what is being loaded, instead of
+  /// what waits to be refined.
+  void refine(const Request& request);
   void cancel();
   /// What is new; `progress` as it is now.
   [[nodiscard]] LoadNews poll();
@@ -56,6 +60,8 @@ class LoadThread {
  private:
   void run();
   void load_now(const Request& asked);
+  void refine_now(const Request& asked);
+  [[nodiscard]] LoadListener listener_for(const Request& asked);
   [[nodiscard]] Scene made_scene(const Request& request, const LoadListener& listener, bool& worth_keeping);
   [[nodiscard]] LoadedScene load_and_show_points(const Request& request, const LoadListener& listener);
   void deliver(const std::function<void(LoadNews&)>& change);
@@ -63,9 +69,15 @@ class LoadThread {
 
   std::function<void()> wake_;
   SceneCache cache_;
+  /// The scene opened last, of files in levels. Of the thread alone.
+  struct {
+    InLevels files;
+    SceneFacts facts;
+    ChosenNodes shown;  ///< none: the overview
+  } levels_;
   std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;
-  std::optional<Request> waiting_;
+  std::optional<Request> waiting_, refining_;
   LoadNews news_;
   bool ending_ = false, cancelled_ = false;
   std::thread thread_;

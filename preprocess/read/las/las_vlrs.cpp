@@ -32,9 +32,12 @@ void keep(LasVlrs& vlrs, const Head& head, const unsigned char* content) {
   constexpr unsigned GEO_KEYS = 34735;
   constexpr unsigned WKT = 2112;
   constexpr unsigned EXTRA_BYTES = 4;
+  constexpr unsigned COPC_INFO = 1;
   const unsigned char* const end = content + head.bytes;
   if (head.user == "laszip encoded" && head.id == LASZIP) {
     vlrs.laszip.assign(content, end);
+  } else if (head.user == "copc" && head.id == COPC_INFO) {
+    vlrs.copc_info.assign(content, end);
   } else if (head.user == "LASF_Projection" && head.id == GEO_KEYS) {
     vlrs.geo_keys.assign(content, end);
   } else if (head.user == "LASF_Projection" && head.id == WKT) {

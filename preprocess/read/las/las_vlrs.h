@@ -13,6 +13,7 @@ struct LasVlrs {
   std::vector<unsigned char> laszip;       ///< how points are compressed; empty = no such record
   std::vector<unsigned char> extra_bytes;  ///< descriptors of all records of this kind, one after another
   std::vector<unsigned char> geo_keys;     ///< GeoTIFF's directory of keys
+  std::vector<unsigned char> copc_info;    ///< where the octree of a COPC file is
   std::string wkt;                         ///< the coordinate system as text
 };
 

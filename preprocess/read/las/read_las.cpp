@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/number_text.h"
+#include "preprocess/read/las/copc.h"
 #include "preprocess/read/las/las_columns.h"
 #include "preprocess/read/las/las_extra_bytes.h"
 #include "preprocess/read/las/las_header.h"
@@ -86,6 +87,31 @@ std::vector<FileFact> facts_of(const LasHeader& header, const LasVlrs& vlrs) {
   return facts;
 }
 
+/// How the file's points are in levels, the root's first.
+void add_levels(const Levels& levels, std::vector<FileFact>& facts) {
+  if (levels.nodes.empty()) return;
+  std::vector<std::uint64_t> points(levels.depth());
+  for (const LevelNode& node : levels.nodes) points[node.level] += node.points;
+  std::string text = std::to_string(levels.nodes.size()) + " nodes, points by level";
+  for (const std::uint64_t count : points) text += ' ' + std::to_string(count);
+  facts.push_back({"levels", text + " (COPC)"});
+  facts.push_back({"octree", number_text(levels.low, ' ') + ", edge " + number_text(levels.edge)});
+}
+
+/// The chunks of the nodes that are chosen of the file; nothing: all.
+std::optional<std::vector<LazChunk>> chosen_chunks(ByteReader& in, const LasHeader& header,
+                                                   const LasVlrs& vlrs, const ChosenNodes& nodes) {
+  const auto chosen = nodes.find(in.path());
+  if (chosen == nodes.end()) return std::nullopt;
+  return chunks_of(read_copc(in, header, vlrs), chosen->second);
+}
+
+std::uint64_t points_in(const std::vector<LazChunk>& chunks) {
+  std::uint64_t sum = 0;
+  for (const LazChunk& chunk : chunks) sum += chunk.points;
+  return sum;
+}
+
 }  // namespace
 
 ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
@@ -101,17 +127,25 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   file.counts.stored = header.point_count;
   file.facts = facts_of(header, vlrs);
   file.said_box = {header.box_low, header.box_high};
+  try {
+    add_levels(read_copc(in, header, vlrs), file.facts);
+  } catch (const Error& error) {
+    listener.notes.emplace_back(error.what());
+  }
   if (options.heads_only) {
     file.points.crs = las_crs(vlrs);
     return file;
   }
-  const std::uint64_t found = header.is_compressed
-                                  ? read_laz_points(in, header, vlrs.laszip, columns, file.counts, listener)
-                                  : read_records(in, header, columns, file.counts, listener);
-  file.counts.missing = header.point_count - found;
+  const auto chosen = chosen_chunks(in, header, vlrs, options.nodes);
+  if (chosen) file.counts.stored = points_in(*chosen);
+  const std::uint64_t found =
+      header.is_compressed ? read_laz_points(in, header, vlrs.laszip, chosen, columns, file.counts, listener)
+                           : read_records(in, header, columns, file.counts, listener);
+  file.counts.missing = file.counts.stored - found;
   if (file.counts.missing != 0) {
     const std::string sentence = "found " + std::to_string(found) + " whole points, expected the " +
-                                 std::to_string(header.point_count) + " that the header counts";
+                                 std::to_string(file.counts.stored) + " that the " +
+                                 (chosen ? "directory" : "header") + " counts";
     if (options.scans.strict) throw_unreadable(path, sentence);
     listener.note(path, sentence);
   }

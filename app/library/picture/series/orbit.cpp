@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "app/library/codec/orbit_page.h"
 #include "app/library/image_file.h"
@@ -64,29 +63,6 @@ std::string title_of(const Request& request) {
 
 }  // namespace
 
-std::vector<Camera> orbit_cameras(const Camera& still, const glm::dvec3& up, std::uint32_t columns,
-                                  std::uint32_t rows) {
-  const glm::dmat3 upright = upright_axes(up);
-  const glm::dvec3 from_target = still.eye - still.target;
-  const double distance = glm::length(from_target);
-  glm::dvec3 level = from_target - glm::dot(from_target, upright[1]) * upright[1];
-  level = glm::length(level) > 1e-6 * distance ? glm::normalize(level) : upright[2];
-  std::vector<Camera> cameras;
-  for (std::uint32_t row = 0; row < rows; ++row) {
-    Camera camera = still;
-    if (rows > 1) {
-      const double share = static_cast<double>(row) / (rows - 1);
-      const double elevation =
-          (ORBIT_LOWEST_DEG + (ORBIT_HIGHEST_DEG - ORBIT_LOWEST_DEG) * share) * std::numbers::pi / 180.0;
-      camera.eye = still.target + distance * (std::cos(elevation) * level + std::sin(elevation) * upright[1]);
-      camera.up = upright[1];
-    }
-    for (std::uint32_t column = 0; column < columns; ++column)
-      cameras.push_back(turned_camera(camera, up, static_cast<double>(column) / columns));
-  }
-  return cameras;
-}
-
 SequenceRecord make_orbit(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener) {
   const auto& orbit = std::get<Orbit>(shot.output);
   const std::filesystem::path& path = shot.request.output.path;
@@ -100,8 +76,7 @@ SequenceRecord make_orbit(const Shot& shot, SceneOnDevice& shown, const Sequence
   page.columns = orbit.columns;
   SequenceRecord record;
   std::vector<std::vector<float>> depths;
-  const auto cameras = orbit_cameras(shot.view.camera, shot.request.look.up.value_or(shown.scene().up),
-                                     orbit.columns, orbit.rows);
+  const std::vector<Camera> cameras = all_cameras(shot, shown.scene());
   for (const Camera& camera : cameras) {
     stop_if_interrupted();
     constexpr int QUALITY = 88;  // of JPEGs, of which a page has many

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 #include "engine/base/utf8.h"
@@ -55,6 +57,38 @@ Field inputs_row() {
   return row;
 }
 
+Field lod_row() {
+  return value_row(
+      "lod", INPUT, "X",
+      "of files in levels (COPC) the points that lie X pixels apart in the pictures are read; 0 = all; "
+      "default "
+      "1",
+      [](Request& request, const std::string& text) {
+        request.source.lod = read_number(text, 0.0, 1e6, false);
+      },
+      [](const Request& request) { return request.source.lod ? number_text(*request.source.lod) : ""; });
+}
+
+/// A number of bytes, with a letter for powers of 1024.
+Field max_memory_row() {
+  constexpr double MOST_GIB = 1e6, KIB = 1024.0;
+  return value_row(
+      "max-memory", INPUT, "SIZE",
+      "memory that the points of files in levels may take, such as 4G; default 60 % of what there is",
+      [](Request& request, const std::string& text) {
+        const std::size_t letter = std::string("KMG").find(text.empty() ? ' ' : text.back());
+        const auto number = split_numbers(text.substr(0, text.empty() ? 0 : text.size() - 1), ',', 1);
+        if (letter == std::string::npos || number.empty() || !(number[0] > 0.0 && number[0] <= MOST_GIB))
+          throw Expected{"a number with K, M or G, such as 4G"};
+        const double bytes = number[0] * std::pow(KIB, 1.0 + static_cast<double>(letter));
+        request.source.memory_bytes = static_cast<std::uint64_t>(bytes);
+      },
+      [](const Request& request) {
+        const std::uint64_t bytes = request.source.memory_bytes;
+        return bytes == 0 ? "" : number_text(static_cast<double>(bytes) / KIB) + "K";
+      });
+}
+
 }  // namespace
 
 std::vector<Field> input_fields() {
@@ -104,8 +138,12 @@ std::vector<Field> input_fields() {
     row.doors |= DOOR_PREPROCESS;
     row.traits |= OF_SCENES;
   }
+  for (Field row : {lod_row(), max_memory_row()}) {  // of pictures alone
+    row.traits |= OF_SCENES | NOT_OF_LIGHT;
+    rows.push_back(row);
+  }
   rows.front().traits = 0;  // what is opened, not how
-  rows.back().traits |= NOT_OF_LIGHT;
+  rows[rows.size() - 3].traits |= NOT_OF_LIGHT;
   rows[2].old_names = {"points", "samples"};
   return rows;
 }

@@ -78,7 +78,17 @@ class LazReader {
         listener_(listener),
         workers_([&layout, wanted = columns.used_bytes()] { return Worker(layout, wanted); }) {}
 
-  std::uint64_t read() {
+  std::uint64_t read(const std::vector<LazChunk>& chunks) {
+    expected_ = 0;
+    for (const LazChunk& chunk : chunks) expected_ += chunk.points;
+    std::uint64_t bytes = 0;
+    for (const LazChunk& chunk : chunks) bytes += chunk.bytes;
+    columns_.reserve(static_cast<std::size_t>(std::min(expected_, bytes * MOST_POINTS_PER_BYTE)));
+    read_chunks(chunks);
+    return decoded_;
+  }
+
+  std::uint64_t read_all() {
     in_.seek(0);
     const std::uint64_t bytes = in_.remaining() - header_.points_offset;
     columns_.reserve(static_cast<std::size_t>(std::min(header_.point_count, bytes * MOST_POINTS_PER_BYTE)));
@@ -114,17 +124,15 @@ class LazReader {
     }
   }
 
-  /// Decodes chunks that follow one another in parallel.
+  /// Decodes chunks in parallel.
   void read_together(std::span<const LazChunk> chunks) {
     report();
-    const std::uint64_t begin = chunks.front().offset;
-    load(begin, chunks.back().offset + chunks.back().bytes - begin);
+    const std::vector<std::size_t> begins = load(chunks);
     std::vector<Loaded> all;
-    for (const LazChunk& chunk : chunks)
-      all.push_back({chunk,
-                     std::span(bytes_).subspan(static_cast<std::size_t>(chunk.offset - begin),
-                                               static_cast<std::size_t>(chunk.bytes)),
-                     columns_.grow(static_cast<std::size_t>(chunk.points))});
+    for (std::size_t i = 0; i < chunks.size(); ++i)
+      all.push_back({chunks[i],
+                     std::span(bytes_).subspan(begins[i], static_cast<std::size_t>(chunks[i].bytes)),
+                     columns_.grow(static_cast<std::size_t>(chunks[i].points))});
     tbb::parallel_for(std::size_t{0}, all.size(),
                       [&](std::size_t i) { decode(all[i], workers_.local(), columns_); });
     std::size_t end = all.front().at;
@@ -179,6 +187,30 @@ class LazReader {
     return worker.decoder->consumed();
   }
 
+  /// Loads chunks, those that follow one another in one go; returns where each begins in `bytes_`.
+  std::vector<std::size_t> load(std::span<const LazChunk> chunks) {
+    std::vector<std::size_t> begins;
+    std::vector<unsigned char> all;
+    while (!chunks.empty()) {
+      const std::uint64_t begin = chunks.front().offset;
+      std::uint64_t end = begin;
+      std::size_t count = 0;
+      for (; count < chunks.size() && chunks[count].offset == end; ++count) {
+        begins.push_back(all.size() + static_cast<std::size_t>(end - begin));
+        end += chunks[count].bytes;
+      }
+      load(begin, end - begin);
+      if (bytes_.size() < end - begin) throw_unreadable(in_.path(), "it could not be read to its end");
+      if (all.empty())
+        all.swap(bytes_);
+      else
+        all.insert(all.end(), bytes_.begin(), bytes_.end());
+      chunks = chunks.subspan(count);
+    }
+    bytes_ = std::move(all);
+    return begins;
+  }
+
   void load(std::uint64_t offset, std::uint64_t count) {
     if (in_.offset() != offset) in_.seek(offset);
     bytes_ = in_.read(count);
@@ -190,9 +222,7 @@ class LazReader {
     counts_.noise += filled.noise;
   }
 
-  void report() {
-    listener_.report(static_cast<double>(decoded_) / static_cast<double>(header_.point_count));
-  }
+  void report() { listener_.report(static_cast<double>(decoded_) / static_cast<double>(expected_)); }
 
   ByteReader& in_;
   const LasHeader& header_;
@@ -202,16 +232,18 @@ class LazReader {
   const ReadListener& listener_;
   tbb::enumerable_thread_specific<Worker> workers_;
   std::vector<unsigned char> bytes_;
-  std::uint64_t decoded_ = 0;
+  std::uint64_t decoded_ = 0, expected_ = header_.point_count;
 };
 
 }  // namespace
 
 std::uint64_t read_laz_points(ByteReader& in, const LasHeader& header, std::span<const unsigned char> record,
-                              LasColumns& columns, ScanCounts& counts, const ReadListener& listener) {
+                              const std::optional<std::vector<LazChunk>>& chosen, LasColumns& columns,
+                              ScanCounts& counts, const ReadListener& listener) {
   const LazLayout layout = read_laz_layout(record, header, in.path());
   if (header.point_count == 0) return 0;
-  return LazReader(in, header, layout, columns, counts, listener).read();
+  LazReader reader(in, header, layout, columns, counts, listener);
+  return chosen ? reader.read(*chosen) : reader.read_all();
 }
 
 }  // namespace splatray

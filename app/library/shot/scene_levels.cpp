@@ -1,0 +1,76 @@
+#include "app/library/shot/scene_levels.h"
+
+#include <limits>
+
+#include "app/library/shot/level_cut.h"
+#include "engine/base/memory.h"
+#include "preprocess/read/las/copc.h"
+#include "preprocess/read/scan/input_files.h"
+
+namespace splatray {
+namespace {
+
+/// Enough to show what a scan is; scans of so few points are read whole.
+constexpr std::uint64_t OVERVIEW_POINTS = 250'000;
+
+/// How many points the memory that a request may take holds.
+std::uint64_t most_points(const Request& request) {
+  constexpr std::uint64_t POINT_BYTES = 190;  // while a scene is made of a scan
+  constexpr double SHARE = 0.6;
+  const std::uint64_t there = available_memory();
+  const std::uint64_t usual = there == std::numeric_limits<std::uint64_t>::max()
+                                  ? there
+                                  : static_cast<std::uint64_t>(SHARE * static_cast<double>(there));
+  const std::uint64_t asked = request.source.memory_bytes;
+  return (asked > 0 ? asked : usual) / POINT_BYTES;
+}
+
+}  // namespace
+
+std::uint64_t InLevels::points() const {
+  std::uint64_t sum = 0;
+  for (const Levels& one : levels) sum += one.points();
+  return sum;
+}
+
+std::uint64_t InLevels::points(const ChosenNodes& nodes) const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (const std::uint32_t node : nodes.at(paths[i])) sum += levels[i].nodes[node].points;
+  return sum;
+}
+
+InLevels in_levels(const Request& request) {
+  InLevels files;
+  if (request.source.lod == 0.0 || is_scene_file(request.source.inputs.front())) return files;
+  for (const InputFile& file : input_files(request.source.inputs)) {
+    Levels levels = levels_of(file.path);
+    if (levels.nodes.empty()) continue;
+    files.paths.push_back(file.path);
+    files.levels.push_back(std::move(levels));
+  }
+  return files.points() > OVERVIEW_POINTS ? files : InLevels{};
+}
+
+ChosenNodes overview_of(const InLevels& files) {
+  ChosenNodes nodes;
+  for (std::size_t i = 0; i < files.paths.size(); ++i)
+    nodes[files.paths[i]] = first_levels(files.levels[i], OVERVIEW_POINTS / files.paths.size());
+  return nodes;
+}
+
+NeededNodes needed_nodes(const Request& request, const std::vector<Camera>& cameras, const View& view,
+                         const InLevels& files) {
+  LevelCut cut;
+  for (const Camera& camera : cameras) cut.views.push_back({camera, view.width, view.height});
+  cut.spacing_px = request.source.lod.value_or(1.0);
+  cut.most_points = most_points(request);
+  if (asks_for_materials(request.look)) cut.unseen_factor = 1.0;  // mirrors show it
+  cut.z_scale = request.source.scans.z_scale;
+  const CutLevels chosen = cut_levels(files.levels, cut);
+  NeededNodes needed{{}, chosen.spacing_px};
+  for (std::size_t i = 0; i < files.paths.size(); ++i) needed.nodes[files.paths[i]] = chosen.nodes[i];
+  return needed;
+}
+
+}  // namespace splatray

@@ -1,0 +1,33 @@
+/// Files whose points are in levels: an octree of nodes, each with points of its own, the union of which is the scan.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <vector>
+
+namespace splatray {
+
+/// A cube with some of the points that lie in it; its children have others, which are nearer to each other.
+struct LevelNode {
+  static constexpr std::uint32_t NO_PARENT = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t level = 0;              ///< 0 = the root, whose edge is 2^level of this node's
+  glm::uvec3 cell{0};                   ///< its cube among those of its level, from the lowest corner on
+  std::uint32_t parent = NO_PARENT;     ///< index of a node before this one
+  std::uint64_t points = 0;             ///< of its own; 0: its descendants alone have some
+  std::uint64_t offset = 0, bytes = 0;  ///< of these points in the file
+};
+
+struct Levels {
+  glm::dvec3 low{0.0};           ///< lowest corner of the root's cube, in the file's coordinates
+  double edge = 0.0;             ///< of it
+  std::vector<LevelNode> nodes;  ///< parents before their children
+
+  [[nodiscard]] std::uint64_t points() const;
+  [[nodiscard]] std::uint32_t depth() const;  ///< levels that have nodes, 0 without any
+};
+
+/// The nodes of the first levels that together have at least `points` points, or all.
+[[nodiscard]] std::vector<std::uint32_t> first_levels(const Levels& levels, std::uint64_t points);
+
+}  // namespace splatray

@@ -1,0 +1,141 @@
+/// Which nodes of files in levels a picture takes: closed forms, and what must hold for any view.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "app/library/shot/level_cut.h"
+
+namespace splatray {
+namespace {
+
+/// The ground of a square of edge 1024: a full tree of nodes of `points` each, to this depth.
+Levels ground(std::uint32_t depth, std::uint64_t points) {
+  Levels levels{glm::dvec3(0.0), 1024.0, {{0, {0, 0, 0}, LevelNode::NO_PARENT, points, 0, 0}}};
+  for (std::uint32_t i = 0; levels.nodes[i].level + 1 < depth; ++i)
+    for (std::uint32_t child = 0; child < 4; ++child) {
+      const glm::uvec3 cell = 2U * levels.nodes[i].cell + glm::uvec3(child & 1U, child >> 1U, 0);
+      levels.nodes.push_back({levels.nodes[i].level + 1, cell, i, points, 0, 0});
+    }
+  return levels;
+}
+
+View from_above(double height, double ortho_height = 0.0) {
+  Camera camera;
+  camera.eye = {512.0, 512.0, height};
+  camera.target = {512.0, 512.0, 0.0};
+  camera.up = {0.0, 1.0, 0.0};
+  camera.fov_y_deg = 53.13;
+  camera.ortho_height = ortho_height;
+  return {camera, 512, 512};
+}
+
+std::vector<std::uint32_t> cut(const Levels& levels, const LevelCut& how) {
+  return cut_levels({levels}, how).nodes.front();
+}
+
+std::uint64_t points_of(const Levels& levels, const std::vector<std::uint32_t>& nodes) {
+  std::uint64_t sum = 0;
+  for (const std::uint32_t i : nodes) sum += levels.nodes[i].points;
+  return sum;
+}
+
+/// Pixels of 2 units; above level l lie 100 (1/4 + ... + 1/4^l) points in a node's square.
+TEST(LevelCut, OrthographicPicturesTakeWholeLevels) {
+  const Levels levels = ground(7, 100);
+  for (const double spacing : {0.5, 1.0, 2.0, 4.0, 8.0}) {
+    std::size_t expected = 0;
+    double above = 0.0;
+    for (int level = 0; level < 7; ++level) {
+      const double spacing_px = std::ldexp(1024.0, -level) / std::sqrt(above) / 2.0;
+      if (!(spacing_px > spacing)) break;
+      expected += std::size_t{1} << (2 * level);
+      above = (above + 100.0) / 4.0;
+    }
+    EXPECT_GT(expected, 4U);
+    EXPECT_EQ(cut(levels, {{from_above(500.0, 1024.0)}, spacing}).size(), expected) << spacing;
+  }
+}
+
+TEST(LevelCut, WhatNoPictureSeesIsCoarser) {
+  const Levels levels = ground(7, 100);
+  View view = from_above(500.0, 1024.0);
+  view.camera.eye.x = view.camera.target.x = 0.0;  // sees half of it
+  const auto deepest = [&](const std::vector<std::uint32_t>& nodes, bool seen) {
+    std::uint32_t level = 0;
+    for (const std::uint32_t i : nodes) {
+      const LevelNode& node = levels.nodes[i];
+      const double low = std::ldexp(1024.0, -static_cast<int>(node.level)) * node.cell.x;
+      if ((low <= 512.0) == seen) level = std::max(level, node.level);
+    }
+    return level;
+  };
+  const std::vector<std::uint32_t> nodes = cut(levels, {{view}, 2.0});
+  EXPECT_EQ(deepest(nodes, true), deepest(nodes, false) + 3U);  // 8 times
+  LevelCut mirrored{{view}, 2.0};
+  mirrored.unseen_factor = 1.0;
+  EXPECT_EQ(cut(levels, mirrored).size(), cut(levels, {{from_above(500.0, 1024.0)}, 2.0}).size());
+}
+
+/// Each node taken has its parent; finer spacings, more pictures and more points take more.
+TEST(LevelCut, CutsAreNested) {
+  const Levels levels = ground(8, 50);
+  std::mt19937 dice(7);
+  std::uniform_real_distribution<double> place(-200.0, 1224.0), height(1.0, 600.0);
+  for (int round = 0; round < 20; ++round) {
+    View view = from_above(height(dice));
+    view.camera.eye.x = place(dice);
+    view.camera.eye.y = place(dice);
+    const std::vector<std::uint32_t> some = cut(levels, {{view}, 4.0}), finer = cut(levels, {{view}, 2.0});
+    const std::vector<std::uint32_t> both = cut(levels, {{view, from_above(100.0)}, 4.0});
+    EXPECT_TRUE(std::includes(finer.begin(), finer.end(), some.begin(), some.end()));
+    EXPECT_TRUE(std::includes(both.begin(), both.end(), some.begin(), some.end()));
+    for (const std::uint32_t i : finer)
+      EXPECT_TRUE(i == 0 || std::binary_search(finer.begin(), finer.end(), levels.nodes[i].parent));
+    LevelCut less{{view}, 2.0};
+    less.most_points = points_of(levels, finer) / 2;
+    const std::vector<std::uint32_t> fewer = cut(levels, less);
+    EXPECT_TRUE(std::includes(finer.begin(), finer.end(), fewer.begin(), fewer.end()));
+    EXPECT_LE(points_of(levels, fewer), less.most_points);
+    const double spacing = cut_levels({levels}, less).spacing_px;
+    EXPECT_EQ(cut(levels, {{view}, spacing}), fewer) << "as by a wider spacing";
+    EXPECT_GT(points_of(levels, cut(levels, {{view}, std::nextafter(spacing, 0.0)})), less.most_points);
+    less.most_points = points_of(levels, finer);
+    EXPECT_EQ(cut(levels, less), finer);
+  }
+}
+
+/// By rays through all pixels: where one meets the ground, the nodes there that are not taken have their points near enough above.
+TEST(LevelCut, EveryPixelHasItsPoints) {
+  const Levels levels = ground(9, 64);
+  View view = from_above(80.0);
+  view.camera.target += glm::dvec3(300.0, 100.0, 0.0);
+  const std::vector<std::uint32_t> taken = cut(levels, {{view}, 1.0});
+  ASSERT_LT(taken.size(), levels.nodes.size() / 4);
+  const ImagePlane plane = image_plane(RootTransform{}, view);
+  std::size_t met = 0;
+  for (std::uint32_t y = 0; y < view.height; y += 7)
+    for (std::uint32_t x = 0; x < view.width; x += 7) {
+      const glm::dvec3 dir = plane.forward + plane.corner + (x + 0.5) * plane.dx + (y + 0.5) * plane.dy;
+      const glm::dvec3 hit = plane.eye - plane.eye.z / dir.z * dir;
+      if (!(dir.z < 0.0) || std::min(hit.x, hit.y) < 0.0 || std::max(hit.x, hit.y) >= 1024.0) continue;
+      ++met;
+      double per_area = 0.0;
+      bool all = true;
+      for (const std::uint32_t i : taken) {
+        const LevelNode& node = levels.nodes[i];
+        const double edge = std::ldexp(1024.0, -static_cast<int>(node.level));
+        const glm::dvec2 low = edge * glm::dvec2(node.cell);
+        if (hit.x < low.x || hit.y < low.y || hit.x >= low.x + edge || hit.y >= low.y + edge) continue;
+        per_area += static_cast<double>(node.points) / (edge * edge);
+        all = all && node.level + 1 < 9;
+      }
+      const double pixel = glm::length(plane.dy) * glm::distance(plane.eye, hit);
+      EXPECT_TRUE(!all || 1.0 / std::sqrt(per_area) <= pixel) << x << " " << y;
+    }
+  EXPECT_GT(met, 1000U);
+}
+
+}  // namespace
+}  // namespace splatray
