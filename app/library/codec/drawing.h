@@ -1,4 +1,5 @@
-/// A page of lines, letters and one raster, in millimetres from its top left corner, x to the right, y down.
+/// A page of lines, letters and one raster, or a part of one, in millimetres from its top left corner, x to the right, y down. It is
+/// drawn in the order of its members.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -26,6 +27,12 @@ struct DrawnText {
   TextAnchor anchor = TextAnchor::begin;
   std::string text;      ///< UTF-8
   bool upwards = false;  ///< turned by a quarter, to be read from the right
+};
+
+/// What a text takes of its line, mm, whatever its letters are.
+struct TextExtents {
+  double width = 0.0;
+  double ascent = 0.0, descent = 0.0;  ///< of the font, above and below the base line
 };
 
 /// Pixels, top row first, four bytes each: sRGB that alpha is not multiplied into, and alpha.

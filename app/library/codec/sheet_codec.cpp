@@ -7,16 +7,21 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <numbers>
+#include <string_view>
+
+#include "app/library/codec/markup_text.h"
 
 namespace splatray {
 namespace {
 
 constexpr double POINTS_PER_MM = 72.0 / 25.4;
+constexpr const char* FONT = "DejaVu Sans";
 using Bytes = std::vector<unsigned char>;
 
 cairo_status_t append(void* closure, const unsigned char* data, unsigned length) {
@@ -75,21 +80,48 @@ void draw_raster(cairo_t* cairo, const DrawnRaster& raster) {
   cairo_restore(cairo);
 }
 
-void draw_text(cairo_t* cairo, const DrawnText& text) {
-  cairo_set_font_size(cairo, text.size_mm);
+/// Letters whose widths do not depend on the size that they are shown in.
+void set_font(cairo_t* cairo, double size_mm) {
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_set_font_options(cairo, options);
+  cairo_font_options_destroy(options);
+  cairo_select_font_face(cairo, FONT, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, size_mm);
+}
+
+TextExtents text_extents(const std::string& text, double size_mm) {
+  cairo_surface_t* surface = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr);
+  cairo_t* cairo = cairo_create(surface);
+  cairo_scale(cairo, POINTS_PER_MM, POINTS_PER_MM);
+  set_font(cairo, size_mm);
   cairo_text_extents_t extents;
-  cairo_text_extents(cairo, text.text.c_str(), &extents);
-  const double shift =
-      text.anchor == TextAnchor::begin ? 0.0 : (text.anchor == TextAnchor::middle ? 0.5 : 1.0);
+  cairo_text_extents(cairo, text.c_str(), &extents);
+  cairo_font_extents_t font;
+  cairo_font_extents(cairo, &font);
+  cairo_destroy(cairo);
+  cairo_surface_destroy(surface);
+  return {extents.x_advance, font.ascent, font.descent};
+}
+
+/// Where along its line a text begins, as a part of its width before its place.
+double shift_of(TextAnchor anchor) {
+  return anchor == TextAnchor::begin ? 0.0 : (anchor == TextAnchor::middle ? 0.5 : 1.0);
+}
+
+void draw_text(cairo_t* cairo, const DrawnText& text) {
   cairo_save(cairo);
+  set_font(cairo, text.size_mm);
   cairo_translate(cairo, text.at.x, text.at.y);
   if (text.upwards) cairo_rotate(cairo, -0.5 * std::numbers::pi);
-  cairo_move_to(cairo, -shift * extents.x_advance, 0.0);
+  cairo_move_to(cairo, -shift_of(text.anchor) * text_extents(text.text, text.size_mm).width, 0.0);
   cairo_show_text(cairo, text.text.c_str());
   cairo_restore(cairo);
 }
 
-void draw(cairo_t* cairo, const Drawing& drawing) {
+/// All but the texts.
+void draw_shapes(cairo_t* cairo, const Drawing& drawing) {
   cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
   cairo_paint(cairo);
   if (drawing.raster.width > 0) draw_raster(cairo, drawing.raster);
@@ -106,8 +138,37 @@ void draw(cairo_t* cairo, const Drawing& drawing) {
     cairo_fill(cairo);
   }
   cairo_set_source_rgb(cairo, 0.0, 0.0, 0.0);
-  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  for (const DrawnText& text : drawing.texts) draw_text(cairo, text);
+}
+
+/// To a ten-thousandth, whatever the locale.
+std::string number_text(double value) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 4);
+  return {text.data(), end.ptr};
+}
+
+/// Letters as SVG has them, as cairo writes outlines; as wide as measured where a reader has another font.
+std::string svg_text(const DrawnText& text) {
+  const double width = text_extents(text.text, text.size_mm).width;
+  if (!(width > 0.0)) return {};
+  static constexpr std::array ANCHORS = {"start", "middle", "end"};  // TextAnchor
+  const std::string x = number_text(text.at.x), y = number_text(text.at.y);
+  return "<text x=\"" + x + "\" y=\"" + y + "\" font-size=\"" + number_text(text.size_mm) +
+         "\" textLength=\"" + number_text(width) + "\" lengthAdjust=\"spacingAndGlyphs\" text-anchor=\"" +
+         ANCHORS.at(static_cast<std::size_t>(text.anchor)) + "\"" +
+         (text.upwards ? " transform=\"rotate(-90 " + x + " " + y + ")\"" : "") + " xml:space=\"preserve\">" +
+         markup_text(text.text) + "</text>\n";
+}
+
+/// Adds the texts to the bytes of an SVG that has all else.
+void add_svg_texts(const Drawing& drawing, Bytes& bytes) {
+  static constexpr std::string_view END = "</svg>";
+  std::string svg(bytes.begin(), bytes.end());
+  std::string texts = "<g transform=\"scale(" + number_text(POINTS_PER_MM) + ")\" font-family=\"'" + FONT +
+                      "', sans-serif\" fill=\"black\">\n";
+  for (const DrawnText& text : drawing.texts) texts += svg_text(text);
+  svg.insert(svg.rfind(END), texts + "</g>\n");
+  bytes.assign(svg.begin(), svg.end());
 }
 
 bool encode_drawing(const Drawing& drawing, const std::string& format, Bytes& bytes, std::string& error) {
@@ -121,13 +182,16 @@ bool encode_drawing(const Drawing& drawing, const std::string& format, Bytes& by
   }
   cairo_t* cairo = cairo_create(surface);
   cairo_scale(cairo, POINTS_PER_MM, POINTS_PER_MM);
-  draw(cairo, drawing);
+  draw_shapes(cairo, drawing);
+  if (format == "pdf")
+    for (const DrawnText& text : drawing.texts) draw_text(cairo, text);
   cairo_status_t status = cairo_status(cairo);
   cairo_destroy(cairo);
   cairo_surface_finish(surface);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   if (status != CAIRO_STATUS_SUCCESS) error = cairo_status_to_string(status);
+  if (status == CAIRO_STATUS_SUCCESS && format == "svg") add_svg_texts(drawing, bytes);
   return status == CAIRO_STATUS_SUCCESS;
 }
 
@@ -231,6 +295,7 @@ bool encode_tiff(const GeoRaster& raster, const GeoTags& tags, Bytes& bytes, std
 }  // namespace splatray
 
 extern "C" __attribute__((visibility("default"))) const splatray::SheetCodec* splatray_sheet_codec() {
-  static const splatray::SheetCodec codec{splatray::encode_drawing, splatray::encode_tiff};
+  static const splatray::SheetCodec codec{splatray::encode_drawing, splatray::text_extents,
+                                          splatray::encode_tiff};
   return &codec;
 }
