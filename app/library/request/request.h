@@ -13,6 +13,7 @@
 #include "app/library/request/light_request.h"
 #include "app/library/request/object_change.h"
 #include "app/library/request/sheet_request.h"
+#include "app/library/request/title_block.h"
 #include "engine/base/progress.h"
 #include "engine/image/aovs.h"
 #include "engine/image/view.h"
@@ -107,6 +108,7 @@ struct Request {
     bool despeckle = false;  ///< fireflies.h
     AovSet aovs = 0;
     std::string title;                    ///< of a sheet's page; empty = the input's name
+    TitleBlock title_block;               ///< of a sheet's page
     std::filesystem::path measures;       ///< drawn on a sheet's page, measure_file.h; empty = none
     std::filesystem::path height_raster;  ///< of a sheet, .tif; empty = none
     std::filesystem::path camera_path;    ///< camera_file.h; empty = none

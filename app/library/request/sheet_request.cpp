@@ -69,10 +69,16 @@ void read_key(const std::string& key, const std::string& text, SheetRequest& she
     sheet.weight_mm = text == "0" ? 0.0 : positive(key, text, MOST_WEIGHT);
   } else if (key == "unit") {
     sheet.unit_metres = unit_of(text);
+  } else if (key == "paper") {
+    if (find_paper(text) == nullptr) throw Expected{"a paper of A4, A3, A2, A1 or A0"};
+    sheet.paper = text;
   } else {
-    throw Expected{"keys depth, scale, dpi, weight and unit, of a plan also z"};
+    throw Expected{
+        "keys depth, scale, dpi, weight, unit and paper, of a plan also z, and portrait or landscape"};
   }
 }
+
+constexpr const char *PORTRAIT = "portrait", *LANDSCAPE = "landscape";
 
 /// A number without a key; of elevations also the name of a side.
 double read_place(const std::string& text, SheetKind kind) {
@@ -104,7 +110,9 @@ SheetRequest read_sheet(const std::string& text) {
   if (colon < text.size())
     for (const std::string& part : split_names(text.substr(colon + 1))) {
       const std::size_t equals = part.find('=');
-      if (equals == std::string::npos)
+      if (part == PORTRAIT || part == LANDSCAPE)
+        sheet.turn = part == PORTRAIT ? PaperTurn::portrait : PaperTurn::landscape;
+      else if (equals == std::string::npos)
         sheet.place.push_back(read_place(part, sheet.kind));
       else
         read_key(part.substr(0, equals), part.substr(equals + 1), sheet);
@@ -128,6 +136,8 @@ std::string sheet_text(const SheetRequest& sheet) {
   if (sheet.dpi != plain.dpi) add("dpi=" + number_text(sheet.dpi));
   if (sheet.weight_mm != plain.weight_mm) add("weight=" + number_text(sheet.weight_mm));
   if (sheet.unit_metres) add("unit=" + number_text(*sheet.unit_metres));
+  if (!sheet.paper.empty()) add("paper=" + sheet.paper);
+  if (sheet.turn != PaperTurn::chosen) add(sheet.turn == PaperTurn::portrait ? PORTRAIT : LANDSCAPE);
   return text;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/library/request/paper.h"
+
 namespace splatray {
 
 enum class SheetKind {
@@ -28,6 +30,8 @@ struct SheetRequest {
   double dpi = 300.0;                 ///< pixels an inch of paper
   double weight_mm = 0.35;            ///< width of the lines of what is cut, on paper; 0 = none
   std::optional<double> unit_metres;  ///< length of a world unit; unset = as the file says, else a metre
+  std::string paper;  ///< of a page: a name of PAPER_SIZES; empty = the smallest that holds it
+  PaperTurn turn = PaperTurn::chosen;
 
   bool operator==(const SheetRequest&) const = default;
 };

@@ -22,7 +22,8 @@ Field sheet_row() {
       "with "
       "depth=D behind the cut, scale=50 for 1:50, dpi=300, weight=0.35 for the cut's lines in mm, "
       "unit=m|cm|mm|ft|us-ft "
-      "where the file does not say; a pixel is 25.4 mm / dpi x scale; a region limits it",
+      "where the file does not say, of a page paper=A4|A3|A2|A1|A0 and portrait or landscape, by default the "
+      "smallest that holds the drawing; a pixel is 25.4 mm / dpi x scale; a region limits it",
       [](Request& request, const std::string& text) { request.view.sheet = read_sheet(text); },
       [](const Request& request) {
         return request.view.sheet ? sheet_text(*request.view.sheet) : std::string();
@@ -41,9 +42,17 @@ std::vector<Field> sheet_fields() {
           "of a sheet: how many splats lie one behind the other, by the logarithm, dark for many")),
       not_in_panels(value_row(
           "title", SHEET, "TEXT",
-          "of a sheet as .svg or .pdf: what stands below it; default the input's name",
+          "of a sheet as .svg or .pdf: the title in its title block; default the input's name",
           [](Request& request, const std::string& text) { request.output.title = to_utf8(text); },
           [](const Request& request) { return request.output.title; })),
+      not_in_panels(value_row(
+          "title-block", SHEET, "KEY=TEXT;...",
+          "of a sheet as .svg or .pdf: what its title block says, by the keys project, number, sheet, "
+          "revision, author and date",
+          [](Request& request, const std::string& text) {
+            request.output.title_block = read_title_block(text);
+          },
+          [](const Request& request) { return title_block_text(request.output.title_block); })),
       not_in_panels(value_row(
           "measures", SHEET, "FILE.geojson",
           "of a sheet as .svg or .pdf: measures of splatray-measure or splatray-view that are drawn on it",
