@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/library/codec/dxf.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/measure/measure_text.h"
 #include "app/library/measure/surface_point.h"
@@ -142,9 +143,19 @@ TEST(MeasureFile, OfDxfHasPairsOfCodeAndValueInAscii) {
   EXPECT_TRUE(
       std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n') % 2, 0);
-  EXPECT_TRUE(text.starts_with("0\nSECTION\n2\nENTITIES\n"));
+  EXPECT_TRUE(text.starts_with("0\nSECTION\n2\nHEADER\n"));
   EXPECT_TRUE(text.ends_with("0\nENDSEC\n0\nEOF\n"));
-  EXPECT_NE(text.find("%%p"), std::string::npos);
+  EXPECT_NE(text.find("\\U+00B1"), std::string::npos);
+}
+
+TEST(Dxf, PlacesOfCirclesAreOfTheirOwnSystem) {
+  const glm::dvec3 place(1.0, 2.0, 3.0);
+  EXPECT_EQ(in_object_system(place, {0.0, 0.0, 1.0}), place);
+  EXPECT_EQ(in_object_system(place, {0.0, 0.0, -1.0}), glm::dvec3(-1.0, 2.0, -3.0));
+  EXPECT_EQ(in_object_system(place, {1.0, 0.0, 0.0}), glm::dvec3(2.0, 3.0, 1.0));
+  DxfWriter dxf(1.0, {{"A"}});
+  dxf.circle("A", place, 0.5, {2.0, 0.0, 0.0});
+  EXPECT_NE(dxf.str().find("\n10\n2\n20\n3\n30\n1\n40\n0.5\n210\n1\n"), std::string::npos) << dxf.str();
 }
 
 const Scene& ball() {

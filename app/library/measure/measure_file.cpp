@@ -1,8 +1,8 @@
 #include "app/library/measure/measure_file.h"
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "app/library/codec/dxf.h"
 #include "app/library/codec/json_file.h"
 #include "app/library/codec/json_vector.h"
 #include "app/library/request/value_text.h"
@@ -50,42 +50,6 @@ Json properties_of(const Measure& measure, const glm::dvec3& up) {
   properties["axis"] = json_vector(measure.fit->axis);
   properties["fitted_points"] = measure.fit->points;
   return properties;
-}
-
-/// A DXF in the making: pairs of a group's code and a value.
-class Dxf {
- public:
-  void pair(int code, const std::string& value) { text_ << code << "\n" << value << "\n"; }
-  void place(int code, const glm::dvec3& p) {
-    for (int axis = 0; axis < 3; ++axis) pair(code + 10 * axis, number_text(p[axis]));
-  }
-  void entity(const char* type, const char* layer) {
-    pair(0, type);
-    pair(8, layer);
-  }
-  void line(const char* layer, const glm::dvec3& from, const glm::dvec3& to) {
-    entity("LINE", layer);
-    place(10, from);
-    place(11, to);
-  }
-  void text(const char* layer, const glm::dvec3& at, double height, const std::string& value) {
-    entity("TEXT", layer);
-    place(10, at);
-    pair(40, number_text(height));
-    pair(1, value);
-  }
-  [[nodiscard]] std::string str() const { return text_.str(); }
-
- private:
-  std::ostringstream text_;
-};
-
-/// In ASCII, as R12 has it: %%p is its plus-minus, %%d its degree.
-std::string dxf_letters(std::string text) {
-  for (const auto& [from, to] : {std::pair("\u00B1", "%%p"), std::pair("\u00B0", "%%d")})
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
-      text.replace(at, std::string(from).size(), to);
-  return text;
 }
 
 double letter_height(std::span<const Measure> measures) {
@@ -145,32 +109,25 @@ std::string geojson_text(std::span<const Measure> measures, const MeasureFrame& 
 }
 
 std::string dxf_text(std::span<const Measure> measures, const MeasureFrame& frame) {
-  Dxf dxf;
+  std::vector<DxfLayer> layers;
+  for (int kind = 0; kind < MEASURE_KINDS; ++kind)
+    layers.push_back({measure_name(static_cast<MeasureKind>(kind))});
+  DxfWriter dxf(describe_crs(frame.crs).horizontal_metres, layers);
   const double height = letter_height(measures);
-  dxf.pair(0, "SECTION");
-  dxf.pair(2, "ENTITIES");
   for (const Measure& measure : measures) {
     const char* layer = measure_name(measure.kind);
     const std::vector<SurfacePoint>& points = measure.points;
     glm::dvec3 middle(0.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       middle += points[i].place / static_cast<double>(points.size());
-      dxf.entity("POINT", layer);
-      dxf.place(10, points[i].place);
+      dxf.point(layer, points[i].place);
       if (i > 0) dxf.line(layer, points[i - 1].place, points[i].place);
     }
     if (measure.kind == MeasureKind::area && points.size() > 2)
       dxf.line(layer, points.back().place, points.front().place);
-    if (measure.fit) {
-      dxf.entity("CIRCLE", layer);
-      dxf.place(10, measure.fit->center);
-      dxf.pair(40, number_text(measure.fit->radius));
-      if (measure.fit->axis != glm::dvec3(0.0)) dxf.place(210, measure.fit->axis);
-    }
-    dxf.text(layer, middle, height, dxf_letters(short_text(measure, frame.up)));
+    if (measure.fit) dxf.circle(layer, measure.fit->center, measure.fit->radius, measure.fit->axis);
+    dxf.text(layer, middle, height, short_text(measure, frame.up));
   }
-  dxf.pair(0, "ENDSEC");
-  dxf.pair(0, "EOF");
   return dxf.str();
 }
 

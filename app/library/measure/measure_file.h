@@ -1,4 +1,4 @@
-/// Measures in files of others: GeoJSON (RFC 7946, but in the file's own coordinates), DXF (AutoCAD R12), tables.
+/// Measures in files of others: GeoJSON (RFC 7946, but in the file's own coordinates), DXF, tables.
 #pragma once
 #include <filesystem>
 #include <span>
