@@ -14,7 +14,7 @@ ROOMS = ["shaders", "shaders/lang", "shaders/primitive", "shaders/scene", "shade
          "engine/base", "engine/table", "engine/scene", "engine/file", "engine/light", "engine/image", "engine/device", "engine/cpu", "engine/device/host", "engine/device/vulkan", "engine/device/open_device.cpp", "engine/gpu",
          "preprocess/points.h", "preprocess/build_stats.h", "preprocess/base", "preprocess/mesh", "preprocess/surface",
          "preprocess/scan", "preprocess/tree", "preprocess/read", "preprocess",
-         "app/library/codec", "app/library", "app/library/request", "app/library/measure", "app/library/shot", "app/library/sheet", "app/library/picture", "app/library/picture/series", "app/library/api", "app/cli", "app/farm", "app/python", "app/package",
+         "app/library/codec", "app/library", "app/library/request", "app/library/measure", "app/library/cut", "app/library/shot", "app/library/sheet", "app/library/picture", "app/library/picture/series", "app/library/api", "app/cli", "app/farm", "app/python", "app/package",
          "app/view/model", "app/view/ui", "app/view/window", "app/view/thread", "app/view", "data", "tests"]
 # Rooms that only some may look into: programs, viewer and Python trace by app/library.
 # The window shows pictures by Vulkan itself.
