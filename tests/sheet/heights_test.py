@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 import sys
 
-from rasterio_python import rasterio_python
+from pypi_python import RASTERIO, pypi_python
 
 render, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 CUT = 2.0  # above the floor: pews and pillars' feet
@@ -35,7 +35,7 @@ def main():
         print("skipped: SPLATRAY_DATA_DIR is not set: heights are not compared with a scan's truth")
         sys.exit(77)
     folder.mkdir(parents=True, exist_ok=True)
-    python = rasterio_python(folder.parent)
+    python = pypi_python(folder.parent / "rasterio", *RASTERIO)
     scan = pathlib.Path(os.environ["SPLATRAY_DATA_DIR"]) / "scans/sim_sibenik_tls.e57"
     heights = folder / "heights.tif"
     subprocess.run([render, "--quiet", scan, "--sheet", f"plan:z={CUT},scale=50,dpi=100", "--samples", "1", "--keep-noise",

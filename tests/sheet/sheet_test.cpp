@@ -8,51 +8,53 @@
 
 #include "app/library/picture/picture_file.h"
 #include "app/library/request/fields.h"
+#include "app/library/sheet/draw_cut.h"
 #include "app/library/sheet/geotiff.h"
 #include "app/library/sheet/ink.h"
 #include "app/library/sheet/sheet_files.h"
-#include "app/library/sheet/sheet_page.h"
-#include "app/library/shot/cut_lines.h"
 #include "app/library/shot/sheet_placement.h"
-#include "data/shapes.h"
 #include "engine/base/error.h"
 #include "engine/scene/splat.h"
+#include "tests/sheet/sheet_of_ball.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray {
 namespace {
 
-constexpr double FAR_AWAY = 500000.0;  ///< as coordinates of surveys are
-
-/// A ball of radius 1 that stands at large coordinates, z up.
-Scene ball() {
-  testing::TestObject object{sphere({.count = 20000, .even = true, .seed = 7}, 1.0),
-                             testing::test_material(MATERIAL_TWO_SIDED)};
-  for (glm::dvec3& place : object.points.position) place += glm::dvec3(FAR_AWAY, 10.0 * FAR_AWAY, 100.0);
-  Scene scene = testing::scene_of({object});
-  scene.up = {0.0, 0.0, 1.0};
-  return scene;
-}
-
-Request with_sheet(const std::string& text) {
-  Request request;
-  assign(request, {{"sheet", text}}, DOOR_RENDER);
-  return request;
-}
+using testing::ball, testing::FAR_AWAY, testing::with_sheet;
 
 TEST(SheetText, IsReadAndWrittenAlike) {
   for (const char* text : {"plan", "plan:z=1.2,depth=1.4,scale=20,dpi=150", "section:0,1,2.5,1,depth=3",
-                           "elevation:180,weight=0", "ortho:1,1,-1,unit=0.3048"}) {
+                           "elevation:180,weight=0", "ortho:1,1,-1,unit=0.3048", "plan:paper=A3",
+                           "section:0,1,2.5,1,paper=A0,landscape", "plan:portrait"}) {
     EXPECT_EQ(sheet_text(read_sheet(text)), text);
   }
   EXPECT_EQ(sheet_text(read_sheet("elevation:south,unit=ft")), "elevation:180,unit=0.3048");
 }
 
 TEST(SheetText, OfAnythingElseIsRefused) {
-  for (const char* text : {"", "plane", "plan:scale=0", "plan:scale=-5", "plan:scale=nan", "plan:1",
-                           "plan:dpi=0", "plan:dpi=1e9", "plan:depth=0", "plan:colour=1", "section:0,0,1",
-                           "section:1,1,1,1", "section:0,0,1,1,z=2", "elevation", "elevation:up",
-                           "ortho:0,0,0", "plan:unit=yard", "plan:weight=-1", "plan:"})
+  for (const char* text : {"",
+                           "plane",
+                           "plan:scale=0",
+                           "plan:scale=-5",
+                           "plan:scale=nan",
+                           "plan:1",
+                           "plan:dpi=0",
+                           "plan:dpi=1e9",
+                           "plan:depth=0",
+                           "plan:colour=1",
+                           "section:0,0,1",
+                           "section:1,1,1,1",
+                           "section:0,0,1,1,z=2",
+                           "elevation",
+                           "elevation:up",
+                           "ortho:0,0,0",
+                           "plan:unit=yard",
+                           "plan:weight=-1",
+                           "plan:paper=A5",
+                           "plan:paper=",
+                           "plan:sideways",
+                           "plan:"})
     EXPECT_THROW((void)with_sheet(text), Error) << text;
 }
 
@@ -173,20 +175,16 @@ TEST(Sheet, OfCoordinatesThatHaveNoPixelsIsRefused) {
   }
 }
 
-TEST(CutLines, LieOnTheCircleThatABallIsCutIn) {
+TEST(CutLines, AreOfSheetsThatCut) {
   const Scene scene = ball();
-  const double radius = std::sqrt(1.0 - 0.3 * 0.3), length = 2.0 * 3.14159265 * radius;
-  Sheet sheet = make_sheet(scene, with_sheet("plan:z=100.3"));
-  ASSERT_GT(sheet.cut_lines.size(), 100U);
-  double covered = 0.0;
-  for (const CutLine& line : sheet.cut_lines) {
-    covered += glm::distance(line[0], line[1]);
-    for (const glm::dvec2& end : line)
-      ASSERT_NEAR(glm::distance(end, glm::dvec2(FAR_AWAY, 10.0 * FAR_AWAY)), radius, 0.01);
-  }
-  EXPECT_GT(covered, length) << "lines overlap";
-  EXPECT_TRUE(make_sheet(scene, with_sheet("plan:z=100.3,weight=0")).cut_lines.empty());
-  EXPECT_TRUE(make_sheet(scene, with_sheet("plan")).cut_lines.empty()) << "nothing is cut";
+  const double radius = std::sqrt(1.0 - 0.3 * 0.3);
+  const Sheet sheet = make_sheet(scene, with_sheet("plan:z=100.3"));
+  ASSERT_EQ(sheet.cut_curves.size(), 1U);
+  EXPECT_TRUE(sheet.cut_curves[0].closed);
+  for (const glm::dvec2& point : sheet.cut_curves[0].points)
+    ASSERT_NEAR(glm::distance(point, glm::dvec2(FAR_AWAY, 10.0 * FAR_AWAY)), radius, 5e-4);
+  EXPECT_TRUE(make_sheet(scene, with_sheet("plan:z=100.3,weight=0")).cut_curves.empty());
+  EXPECT_TRUE(make_sheet(scene, with_sheet("plan")).cut_curves.empty()) << "nothing is cut";
 }
 
 TEST(CutLines, AreAsWideOnPaperAsAskedFor) {
@@ -194,7 +192,7 @@ TEST(CutLines, AreAsWideOnPaperAsAskedFor) {
   sheet.asked.dpi = 254.0;  // ten pixels a millimetre
   sheet.asked.weight_mm = 0.8;
   sheet.corner = {0.0, 20.0};
-  sheet.cut_lines = {{glm::dvec2(-50.0, 10.0), glm::dvec2(50.0, 10.0)}};
+  sheet.cut_curves = {{{glm::dvec2(-50.0, 10.0), glm::dvec2(50.0, 10.0)}, false}};
   Image image{20, 20, std::vector<vec4>(400, vec4(1.0F)), {}};
   draw_cut(sheet, {0, 0, 20, 20}, image);
   double black = 0.0;
@@ -263,53 +261,6 @@ TEST(GeoTags, SayWhereARasterLies) {
   const std::vector<std::uint16_t> projected{3072, 0, 1, 25832};
   EXPECT_NE(std::search(utm.keys.begin(), utm.keys.end(), projected.begin(), projected.end()),
             utm.keys.end());
-}
-
-Drawing page_of(const Sheet& sheet) {
-  const DisplayImage picture{sheet.width, sheet.height,
-                             std::vector<vec3>(std::size_t{sheet.width} * sheet.height)};
-  return sheet_page(sheet, {0, 0, sheet.width, sheet.height}, picture, "Ball");
-}
-
-bool has(const Drawing& page, const std::string& text) {
-  return std::any_of(page.texts.begin(), page.texts.end(),
-                     [&](const DrawnText& drawn) { return drawn.text == text; });
-}
-
-void expect_inside(const Drawing& page) {
-  for (const DrawnText& text : page.texts) {
-    EXPECT_GE(text.at.x, 0.0);
-    EXPECT_LE(text.at.x, page.size.x);
-    EXPECT_LE(text.at.y, page.size.y) << text.text;
-  }
-  for (const DrawnBox& box : page.boxes) EXPECT_LE(box.corner.y + box.size.y, page.size.y);
-}
-
-TEST(SheetPage, HasItsPictureAtScaleAndWordsAroundIt) {
-  const Sheet sheet = make_sheet(ball(), with_sheet("plan:scale=20,dpi=100"));
-  const Drawing page = page_of(sheet);
-  EXPECT_DOUBLE_EQ(page.raster.size.x, sheet.width * 25.4 / 100.0);
-  EXPECT_TRUE(has(page, "Ball") && has(page, "1 : 20") && has(page, "N") && has(page, "500000") &&
-              has(page, "5000000"));
-  expect_inside(page);
-}
-
-TEST(SheetPage, SaysWhatColoursMean) {
-  Sheet sheet = make_sheet(ball(), with_sheet("plan:scale=20,dpi=100"));
-  const Drawing bare = page_of(sheet);
-  sheet.legend = {"height", 99.0, 101.25, {pack_color(vec3(0.0F)), pack_color(vec3(1.0F, 0.0F, 0.0F))}, {}};
-  const Drawing ramp = page_of(sheet);
-  EXPECT_TRUE(has(ramp, "height, m") && has(ramp, "99") && has(ramp, "101.25"));
-  EXPECT_GT(ramp.size.y, bare.size.y);
-  EXPECT_NEAR(ramp.boxes.back().fill.x, 1.0F, 0.01F);
-  expect_inside(ramp);
-  sheet.legend = {"class", 0.0, 0.0, {}, {}};
-  for (const std::uint32_t value : {2U, 5U, 6U, 9U, 17U})
-    sheet.legend.categories.push_back({value, class_name(value), pack_color(vec3(0.0F, 1.0F, 0.0F)), 1});
-  const Drawing classes = page_of(sheet);
-  EXPECT_TRUE(has(classes, "class") && has(classes, "6  " + class_name(6)));
-  EXPECT_EQ(classes.boxes.size(), bare.boxes.size() + 5);
-  expect_inside(classes);
 }
 
 TEST(SheetFiles, EachOfOneStemHasADescriptionOfItsOwn) {

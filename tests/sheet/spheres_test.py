@@ -9,7 +9,7 @@ import struct
 import subprocess
 import sys
 
-from rasterio_python import rasterio_python
+from pypi_python import RASTERIO, pypi_python
 
 render, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 ACROSS = 32 if "SPLATRAY_TEST_ALL" in os.environ else 8
@@ -102,7 +102,7 @@ def require(pixel, metre, _):
 
 def main():
     folder.mkdir(parents=True, exist_ok=True)
-    python = rasterio_python(folder.parent)
+    python = pypi_python(folder.parent / "rasterio", *RASTERIO)
     places = centers()
     # The highest pixel's centre is at most half a diagonal from a sphere's top.
     fall = RADIUS - math.sqrt(RADIUS ** 2 - PIXEL ** 2 / 2)

@@ -19,6 +19,13 @@ struct DrawnBox {
   glm::vec3 fill{0.0F};  ///< sRGB, 0 to 1
 };
 
+/// Lines from point to point on the raster, cut off at its border.
+struct DrawnPath {
+  std::vector<glm::dvec2> points;
+  bool closed = false;
+  double width_mm = 0.35;
+};
+
 enum class TextAnchor { begin, middle, end };
 
 struct DrawnText {
@@ -46,6 +53,7 @@ struct Drawing {
   glm::dvec2 size{0.0};
   std::string title;  ///< of the document
   DrawnRaster raster;
+  std::vector<DrawnPath> paths;
   std::vector<DrawnLine> lines;
   std::vector<DrawnBox> boxes;
   std::vector<DrawnText> texts;

@@ -29,6 +29,12 @@ inline constexpr const char* PICTURE_NAMES = ".png, .jpg, .webp or .exr";
   return is_display_format(path) || lower_extension(path) == ".exr";
 }
 
+/// Whether a sheet's file has its lines as lines, not as pixels.
+[[nodiscard]] inline bool is_line_format(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".svg" || extension == ".pdf" || extension == ".dxf";
+}
+
 /// Most pixels of a side that the file can have: 14 bits of WebP (RFC 9649, section 2.5), else more than any picture here.
 [[nodiscard]] inline std::uint32_t most_side(const std::filesystem::path& path) {
   return is_webp(path) ? 16383U : 32768U;

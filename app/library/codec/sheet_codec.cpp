@@ -120,12 +120,27 @@ void draw_text(cairo_t* cairo, const DrawnText& text) {
   cairo_restore(cairo);
 }
 
+void draw_paths(cairo_t* cairo, const Drawing& drawing) {
+  cairo_save(cairo);
+  cairo_rectangle(cairo, drawing.raster.corner.x, drawing.raster.corner.y, drawing.raster.size.x,
+                  drawing.raster.size.y);
+  cairo_clip(cairo);
+  for (const DrawnPath& path : drawing.paths) {
+    cairo_set_line_width(cairo, path.width_mm);
+    for (const glm::dvec2& point : path.points) cairo_line_to(cairo, point.x, point.y);
+    if (path.closed) cairo_close_path(cairo);
+    cairo_stroke(cairo);
+  }
+  cairo_restore(cairo);
+}
+
 /// All but the texts.
 void draw_shapes(cairo_t* cairo, const Drawing& drawing) {
   cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
   cairo_paint(cairo);
   if (drawing.raster.width > 0) draw_raster(cairo, drawing.raster);
   cairo_set_source_rgb(cairo, 0.0, 0.0, 0.0);
+  draw_paths(cairo, drawing);
   for (const DrawnLine& line : drawing.lines) {
     cairo_set_line_width(cairo, line.width_mm);
     cairo_move_to(cairo, line.from.x, line.from.y);

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "app/library/codec/picture_format.h"
 #include "app/library/picture/denoise.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/resume.h"
 #include "app/library/picture/xray.h"
+#include "app/library/sheet/draw_cut.h"
 #include "app/library/sheet/ink.h"
-#include "app/library/shot/cut_lines.h"
 #include "app/library/shot/picture_lights.h"
 #include "engine/base/stopwatch.h"
 #include "engine/image/fireflies.h"
@@ -86,8 +87,9 @@ MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& c
   if (sheet == nullptr) return traced_picture(shot, shown, camera, progress, stopped);
   const PixelWindow window = shot.view.made();
   MadePicture made;
+  made.devices = device_text(shown.device());
+  if (lower_extension(shot.request.output.path) == ".dxf") return made;  // has no pixels
   if (shot.request.view.xray) {
-    made.devices = device_text(shown.device());
     made.image =
         xray_image(shown.tracer(), shown.scene().root, shown.look(), *sheet, window, shot.settings, progress);
   } else {
@@ -95,7 +97,7 @@ MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& c
   }
   if (made.samples_missing > 0) return made;
   if (shot.request.view.ink) draw_lines(shot, *sheet, shown, window, made.image);
-  draw_cut(*sheet, window, made.image);
+  if (!is_line_format(shot.request.output.path)) draw_cut(*sheet, window, made.image);
   return made;
 }
 

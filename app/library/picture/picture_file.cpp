@@ -72,7 +72,8 @@ void require_outputs_writable(const Request& request) {
   if (!request.output.height_raster.empty()) require_writable(request.output.height_raster);
   if (!request.output.measures.empty()) static_cast<void>(read_measures(request.output.measures));
   require_picture_writer(request.output.path);
-  const bool drawn = request.view.sheet && !is_picture_format(request.output.path);
+  const bool drawn = request.view.sheet && !is_picture_format(request.output.path) &&
+                     lower_extension(request.output.path) != ".dxf";
   if (drawn || !request.output.height_raster.empty()) require_sheet_writer();
   if (!request.output.stats_json.empty()) require_writable(request.output.stats_json);
 }

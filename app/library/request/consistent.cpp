@@ -122,8 +122,11 @@ void check_format(const Request& request) {
   const std::string extension = lower_extension(output.path);
   const std::array formats = {
       Format{output.orbit_columns > 0, " with --orbit", {".html"}},
-      Format{!output.measures.empty(), " with --measures", {".svg", ".pdf"}},
-      Format{request.view.sheet.has_value(), " with --sheet", {".png", ".exr", ".tif", ".svg", ".pdf"}},
+      Format{!output.measures.empty(), " with --measures", {".svg", ".pdf", ".dxf"}},
+      Format{
+          !output.height_raster.empty(), " with --height-raster", {".png", ".exr", ".tif", ".svg", ".pdf"}},
+      Format{
+          request.view.sheet.has_value(), " with --sheet", {".png", ".exr", ".tif", ".svg", ".pdf", ".dxf"}},
       Format{output.aovs != 0, " with --aov", {".exr"}},
       Format{request.settings.transparent && !request.view.sheet,
              " with --background transparent",

@@ -6,26 +6,19 @@
 
 #include "app/library/codec/json_vector.h"
 #include "app/library/codec/markup_text.h"
-#include "app/library/codec/sheet_codec.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/sheet/geotiff.h"
+#include "app/library/sheet/sheet_dxf.h"
 #include "app/library/sheet/sheet_page.h"
+#include "app/library/sheet/sheet_writer.h"
 #include "engine/base/error.h"
 #include "engine/base/json_text.h"
-#include "engine/base/module.h"
 #include "engine/base/number_text.h"
 #include "engine/base/utf8.h"
 #include "preprocess/base/file_extension.h"
 
 namespace splatray {
 namespace {
-
-const SheetCodec& codec() {
-  static void* const function =
-      module_function("splatray_sheet", "splatray_sheet_codec", ExitCode::failed,
-                      "cannot load what writes sheets", ": the package splatray-sheet");
-  return *reinterpret_cast<decltype(&splatray_sheet_codec)>(function)();
-}
 
 GeoPlace place_of(const Sheet& sheet, const PixelWindow& window) {
   return {sheet.at(window.x, window.y), sheet.pixel_world, sheet.north_up ? sheet.crs : std::string()};
@@ -36,7 +29,7 @@ using Bytes = std::vector<unsigned char>;
 Bytes encode_tiff(const GeoRaster& raster, const GeoTags& tags, const std::filesystem::path& path) {
   Bytes bytes;
   std::string reason;
-  if (!codec().encode_tiff(raster, tags, bytes, reason))
+  if (!sheet_codec().encode_tiff(raster, tags, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
   return bytes;
 }
@@ -44,7 +37,7 @@ Bytes encode_tiff(const GeoRaster& raster, const GeoTags& tags, const std::files
 Bytes encode_page(const Drawing& drawing, const std::string& format, const std::filesystem::path& path) {
   Bytes bytes;
   std::string reason;
-  if (!codec().encode_drawing(drawing, format, bytes, reason))
+  if (!sheet_codec().encode_drawing(drawing, format, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
   return bytes;
 }
@@ -67,6 +60,34 @@ Bytes encode_heights(const Shot& shot, const Image& image) {
   tags.no_data = "nan";
   tags.description = from_above ? "heights, world units" : "distances behind the sheet's plane, world units";
   return encode_tiff(raster, tags, shot.request.output.height_raster);
+}
+
+/// What is said on a shot's page.
+struct PageText {
+  PageWords words;
+  std::vector<Measure> measures;
+};
+
+/// Throws Error: see read_measures.
+PageText page_text(const Shot& shot) {
+  const Request::Output& output = shot.request.output;
+  const std::vector<std::filesystem::path>& inputs = shot.request.source.inputs;
+  PageText text{{output.title, output.title_block}, {}};
+  if (text.words.title.empty() && !inputs.empty()) text.words.title = path_text(inputs.front().stem());
+  if (!output.measures.empty()) text.measures = read_measures(output.measures);
+  return text;
+}
+
+/// The page of the shot's window, without pixels. Throws Error: see sheet_page, page_text.
+Drawing page_of(const Shot& shot) {
+  const PageText text = page_text(shot);
+  return sheet_page(*shot.sheet(), shot.view.made(), text.words, text.measures);
+}
+
+Bytes encode_dxf(const Shot& shot) {
+  const PageText text = page_text(shot);
+  const std::string dxf = sheet_dxf(*shot.sheet(), text.words, text.measures);
+  return {dxf.begin(), dxf.end()};
 }
 
 /// Where the file's pixels lie in the world.
@@ -96,11 +117,18 @@ std::string world_file(const GeoPlace& place) {
 
 }  // namespace
 
-void require_sheet_writer() { static_cast<void>(codec()); }
+void require_sheet_writer() { static_cast<void>(sheet_codec()); }
+
+void require_page(const Shot& shot) {
+  const std::string extension = lower_extension(shot.request.output.path);
+  if (extension == ".svg" || extension == ".pdf") static_cast<void>(page_of(shot));
+  if (extension == ".dxf" && shot.sheet()->cut_curves.empty() && shot.request.output.measures.empty())
+    throw Error(ExitCode::usage, "the sheet '" + shot.request.output.path.string() +
+                                     "' cuts nothing, expected a section or plan:z=HEIGHT through a surface");
+}
 
 Bytes encode_sheet(const Shot& shot, const DisplayImage& picture, const Metadata& metadata,
                    const std::filesystem::path& path) {
-  const Request& request = shot.request;
   const Sheet& sheet = *shot.sheet();
   const PixelWindow window = shot.view.made();
   const std::string extension = lower_extension(path);
@@ -111,12 +139,9 @@ Bytes encode_sheet(const Shot& shot, const DisplayImage& picture, const Metadata
       if (name == "command_line") tags.description = value;
     return encode_tiff({picture.width, picture.height, rgba_bytes(picture), {}}, tags, path);
   }
-  const std::string& title = request.output.title;
-  const std::string name =
-      request.source.inputs.empty() ? "" : path_text(request.source.inputs.front().stem());
-  Drawing page = sheet_page(sheet, window, picture, title.empty() ? name : title);
-  if (!request.output.measures.empty())
-    draw_measures(sheet, window, read_measures(request.output.measures), sheet.up, page);
+  if (extension == ".dxf") return encode_dxf(shot);
+  Drawing page = page_of(shot);
+  set_picture(picture, page);
   return encode_page(page, extension.substr(1), path);
 }
 

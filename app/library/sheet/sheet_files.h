@@ -13,8 +13,12 @@ namespace splatray {
 /// not there.
 void require_sheet_writer();
 
+/// Lays the page of a sheet out before its picture is made. Throws Error (usage) where the paper that is asked for is too small for it,
+/// and of DXF where there is nothing to draw.
+void require_page(const Shot& shot);
+
 /// A sheet's file in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, and
-/// grid, bar and title around it as lines and letters. Throws Error (failed).
+/// all else as lines and letters (sheet_page.h); .dxf, lines alone (sheet_dxf.h). Throws Error (failed).
 [[nodiscard]] std::vector<unsigned char> encode_sheet(const Shot& shot, const DisplayImage& picture,
                                                       const Metadata& metadata,
                                                       const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-/// The page around a sheet's picture.
+/// The page of a sheet: a paper's frame, the drawing, and what stands below it.
 #pragma once
 #include <span>
 #include <string>
@@ -6,6 +6,7 @@
 #include "app/library/codec/drawing.h"
 #include "app/library/display_image.h"
 #include "app/library/measure/measure.h"
+#include "app/library/sheet/page_blocks.h"
 #include "app/library/shot/sheet.h"
 
 namespace splatray {
@@ -13,13 +14,14 @@ namespace splatray {
 /// Pixels as rasters have them: four bytes each, opaque where the picture has no alpha.
 [[nodiscard]] std::vector<std::uint8_t> rgba_bytes(const DisplayImage& picture);
 
-/// The picture of a window of the sheet at its scale, with coordinates at its border, a grid of crosses, a bar, the scale, north
-/// where the paper has it, `title`, and what a reader must know: cut, depth, coordinate system, size of a pixel, what colours mean.
-[[nodiscard]] Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const DisplayImage& picture,
-                                 const std::string& title);
+/// The page of a window of the sheet, its raster yet without pixels: a frame (ISO 5457) on the paper that is asked for, else on the
+/// smallest of A4 to A0 that holds all, else on one made to measure; in it the view (sheet_view.h) with the measures, below it the key
+/// and, in the corner, the title block (page_blocks.h). No text covers another or leaves the frame. Throws Error (usage) where the
+/// paper that is asked for is too small.
+[[nodiscard]] Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const PageWords& words,
+                                 std::span<const Measure> measures);
 
-/// Draws measures on the page of a window of the sheet: their lines as the paper has them, and their values. `up` of the scene.
-void draw_measures(const Sheet& sheet, const PixelWindow& window, std::span<const Measure> measures,
-                   const glm::dvec3& up, Drawing& page);
+/// Gives the page the picture of its window.
+void set_picture(const DisplayImage& picture, Drawing& page);
 
 }  // namespace splatray

@@ -1,17 +1,14 @@
 /// A sheet of a scene: which rectangle of which plane it shows, in pixels that are exactly so large.
 #pragma once
-#include <array>
 #include <string>
 #include <vector>
 
 #include "app/library/attributes.h"
+#include "app/library/cut/plane_cut.h"
 #include "app/library/request/request.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
-
-/// A line of what is cut, places along Sheet::right and Sheet::top, world units.
-using CutLine = std::array<glm::dvec2, 2>;
 
 struct Sheet {
   SheetRequest asked;
@@ -32,13 +29,15 @@ struct Sheet {
   bool north_up = false;                ///< right, top are the file's x, y: coordinates are the file's
   glm::dvec3 up{0.0, 0.0, 1.0};         ///< of the scene
   std::string crs;                      ///< Scene::crs
-  std::vector<CutLine> cut_lines;
+  std::vector<CutCurve> cut_curves;     ///< what is cut
   ColorLegend legend;  ///< of the colours shown; without a title, nothing is to be said of them
 
   /// Orthographic, of the whole sheet.
   [[nodiscard]] Camera camera() const;
   /// What the sheet adds to the region.
   [[nodiscard]] std::vector<HalfSpace> planes() const;
+  /// World length of a millimetre of paper.
+  [[nodiscard]] double mm_world() const { return pixel_world / pixel_mm(); }
   /// Millimetres of paper that a pixel takes.
   [[nodiscard]] double pixel_mm() const { return 25.4 / asked.dpi; }
   /// A place of the world along right and top.

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "app/library/shot/cut_lines.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
@@ -18,6 +17,8 @@ namespace {
 constexpr double METRE_MM = 1000.0;
 /// Paper around what is there, millimetres.
 constexpr double MARGIN_MM = 4.0;
+/// How far a straight part of a cut's line may be from the curve: a tenth of what is seen.
+constexpr double CUT_TOLERANCE_MM = 0.005;
 /// Pixels of a side that rays are numbered by.
 constexpr double MOST_PIXELS = 1U << 20U;
 /// Pixels of a sheet whatever is drawn on it: A2 at 300 dpi, about a minute of two cores for each sample.
@@ -168,7 +169,8 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   const PlanAxes plan(sheet.up);
   set_axes(plan, sheet);
   set_unit(sheet);
-  Region region = region_of(request.view.region, sheet.up);
+  const Region asked_region = region_of(request.view.region, sheet.up);
+  Region region = asked_region;
   const PointSample all = main_parts(sample_points(scene, region));
   set_depths(plan, shown_depths(scene, all, sheet), sheet);
   for (const HalfSpace& plane : sheet.planes()) region.kept.push_back(plane);
@@ -179,7 +181,9 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
                                      number_text(scene.bounds_max_world) +
                                      "; expected a cut that leaves some");
   set_pixels(shown, splat_count(scene), sheet);
-  if (sheet.cuts && sheet.asked.weight_mm > 0.0) sheet.cut_lines = cut_lines(scene, region, sheet);
+  if (sheet.cuts && sheet.asked.weight_mm > 0.0)
+    sheet.cut_curves = plane_cut(scene, asked_region, {sheet.right, sheet.top, sheet.toward, sheet.near},
+                                 CUT_TOLERANCE_MM * sheet.mm_world());
   return sheet;
 }
 

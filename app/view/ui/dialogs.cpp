@@ -147,7 +147,7 @@ void sheet_dialog(const Document& document, PanelState& state, Requests& request
   Request& asked = state.sheet;
   SheetRequest& sheet = *asked.view.sheet;
   ImGui::TextWrapped("%s", sheet_sentence(sheet).c_str());
-  path_input("file", asked.output.path, "sheet.pdf, .svg, .tif, .png or .exr");
+  path_input("file", asked.output.path, "sheet.pdf, .svg, .dxf, .tif, .png or .exr");
   number_input("scale 1:", sheet.scale, MOST_SHEET_SCALE);
   number_input("dpi", sheet.dpi, MOST_SHEET_DPI);
   edge_input("samples", asked.settings.samples, MOST_SAMPLES);

@@ -9,6 +9,7 @@
 #include "app/library/picture/reproduce.h"
 #include "app/library/picture/series/orbit.h"
 #include "app/library/request/command_line.h"
+#include "app/library/sheet/sheet_files.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/stopwatch.h"
@@ -110,6 +111,7 @@ std::filesystem::path unfinished_file(std::filesystem::path picture) {
 
 SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener) {
   if (shot.is_orbit()) return make_orbit(shot, shown, listener);
+  if (shot.sheet() != nullptr) require_page(shot);
   const Run run{shot, shown, listener};
   SequenceRecord record;
   std::size_t before = 0;

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""dxf_test.py RENDER MEASURE FOLDER: a plan and measures as DXF, as ezdxf reads them: layers, units, closed polylines, circles where they
+were measured. Exit 77: skipped."""
+import itertools
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+from pypi_python import EZDXF, pypi_python
+
+render, measure, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+LOW, HIGH = (1000.0, 2000.0, 100.0), (1002.0, 2001.0, 101.2)
+BALL, RADIUS = (1005.0, 2000.5, 100.5), 0.4
+
+READ = """
+import json, sys
+import ezdxf
+from ezdxf.lldxf.encoding import decode_dxf_unicode
+drawing = ezdxf.readfile(sys.argv[1])
+problems = drawing.audit()
+space = drawing.modelspace()
+print(json.dumps({
+    "errors": [error.message for error in problems.errors + problems.fixes], "units": drawing.units,
+    "layers": [layer.dxf.name for layer in drawing.layers],
+    "polylines": [[line.dxf.layer, line.closed, [list(point[:2]) for point in line.get_points()]] for line in space.query("LWPOLYLINE")],
+    "texts": [[text.dxf.layer, decode_dxf_unicode(text.dxf.text)] for text in space.query("TEXT")],
+    "circles": [[list(circle.ocs().to_wcs(circle.dxf.center)), circle.dxf.radius] for circle in space.query("CIRCLE")]}))
+"""
+
+
+def write_points(path):
+    """Points on the sides of a box, and on a ball beside it."""
+    golden = math.pi * (3 - math.sqrt(5))
+    with open(path, "w") as file:
+        for axis in range(3):
+            a, b = (axis + 1) % 3, (axis + 2) % 3
+            counts = [round((HIGH[n] - LOW[n]) / 0.02) for n in (a, b)]
+            for side, i, j in itertools.product((LOW, HIGH), range(counts[0]), range(counts[1])):
+                p = list(side)
+                for n, step, count in ((a, i, counts[0]), (b, j, counts[1])):
+                    p[n] = LOW[n] + (HIGH[n] - LOW[n]) * (step + 0.5) / count
+                file.write(" ".join(f"{v:.5f}" for v in p) + "\n")
+        for i in range(8000):
+            z = 1 - (2 * i + 1) / 8000
+            r = math.sqrt(1 - z * z)
+            file.write(" ".join(f"{c + RADIUS * d:.5f}" for c, d in zip(BALL, (r * math.cos(golden * i), r * math.sin(golden * i), z))) + "\n")
+
+
+def read(python, path):
+    found = json.loads(subprocess.run([python, "-W", "ignore", "-c", READ, path], check=True, capture_output=True, text=True).stdout)
+    assert not found["errors"], found["errors"]
+    return found
+
+
+def area(points):
+    return 0.5 * sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, points[1:] + points[:1]))
+
+
+def main():
+    folder.mkdir(parents=True, exist_ok=True)
+    python = pypi_python(folder.parent / "ezdxf", *EZDXF)
+    points, measures = folder / "points.xyz", folder / "measures.geojson"
+    write_points(points)
+    ball = ",".join(map(str, (BALL[0], BALL[1], BALL[2] + RADIUS)))
+    subprocess.run([measure, points, "-o", measures, "--sphere", f"{ball};0.5", "--distance", "1000.2,2000,100.6;1001.8,2000,100.6"], check=True)
+    plan = folder / "plan.dxf"
+    subprocess.run([render, "--quiet", points, "-o", plan, "--up", "0,0,1", "--sheet", "plan:z=100.6,unit=m", "--title", "Haus \u00c4 \u2300",
+                    "--measures", measures], check=True)
+    found = read(python, plan)
+    assert found["units"] == 6, "metres"
+    assert {"CUT", "BEYOND", "HIDDEN", "MEASURES", "TEXT"} <= set(found["layers"])
+    cut = sorted((abs(area([[x - LOW[0], y - LOW[1]] for x, y in line])), closed) for layer, closed, line in found["polylines"] if layer == "CUT")
+    print("areas of what is cut:", cut)
+    assert len(cut) == 2 and all(closed for _, closed in cut), cut
+    assert abs(cut[1][0] - 2.0) < 0.01 and abs(cut[0][0] - math.pi * (RADIUS ** 2 - 0.1 ** 2)) < 0.005, cut
+    assert ["TEXT", "Haus \u00c4 \u2300"] in found["texts"] and ["TEXT", "1 : 50"] in found["texts"], found["texts"]
+    assert any(layer == "MEASURES" for layer, _, _ in found["polylines"])
+
+    dxf = folder / "measures.dxf"
+    subprocess.run([measure, points, "-o", dxf, "--sphere", f"{ball};0.5"], check=True)
+    (center, radius), = read(python, dxf)["circles"]
+    assert math.dist(center, BALL) < 0.005 and abs(radius - RADIUS) < 0.005, (center, radius)
+
+
+main()
