@@ -3,12 +3,15 @@
 #include <xxhash.h>
 
 #include <iterator>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "preprocess/points.h"
 #include "preprocess/read/e57/crc32c.h"
+#include "preprocess/read/formats.h"
 #include "tests/fuzz/build_and_show.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/require.h"
@@ -156,6 +159,17 @@ void fuzz_gltf(FuzzBytes bytes) {
   static const auto points =
       folder.write("points.ply", {reinterpret_cast<const std::uint8_t*>(POINTS.data()), POINTS.size()});
   read_and_check(folder.write("fuzzed.gltf", bytes), bytes);
+}
+
+void fuzz_format(FuzzBytes bytes) {
+  static const MemoryFolder folder;
+  static const std::vector<std::string> extensions = [] {
+    std::istringstream words(format_extensions());
+    return std::vector<std::string>(std::istream_iterator<std::string>(words), {});
+  }();
+  if (bytes.empty()) return;
+  const std::string name = "fuzzed" + extensions[bytes[0] % extensions.size()];
+  read_and_check(folder.write(name, bytes.subspan(1)), bytes);
 }
 
 }  // namespace splatray::testing

@@ -30,6 +30,9 @@ void fuzz_pcd(FuzzBytes bytes);
 void fuzz_text(FuzzBytes bytes);
 /// The same as for the others; .glb where the bytes begin like one, with a file points.ply beside it.
 void fuzz_gltf(FuzzBytes bytes);
+/// The same on all bytes but the first, which counts the extensions of formats() around: a format that has no target of its own
+/// is fuzzed, too.
+void fuzz_format(FuzzBytes bytes);
 /// read_camera and read_camera_path; numbers must be finite, frames ascend.
 void fuzz_camera(FuzzBytes bytes);
 /// read_user_state: anything is read, nothing refused.
@@ -59,6 +62,7 @@ inline constexpr FuzzTarget FUZZ_TARGETS[] = {
     {"pcd", fuzz_pcd},
     {"text", fuzz_text},
     {"gltf", fuzz_gltf},
+    {"format", fuzz_format},
     {"camera", fuzz_camera},
     {"user_state", fuzz_user_state},
     {"command_line", fuzz_command_line},
