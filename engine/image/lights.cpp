@@ -27,7 +27,7 @@ double falloff(const SceneLight& light, const glm::dvec3& to_light, double dista
   return left * cone * cone;
 }
 
-/// Irradiance of a surface at `position` that faces the light, for rectangles as if all of them were in their centre.
+/// Irradiance of a surface at `position` that faces the light, for flat lights as if all of them were in their centre.
 glm::dvec3 irradiance_of(const SceneLight& light, const glm::dvec3& position) {
   const glm::dvec3 to_light = light.position - position;
   const double distance_squared = glm::dot(to_light, to_light);
@@ -36,7 +36,7 @@ glm::dvec3 irradiance_of(const SceneLight& light, const glm::dvec3& position) {
     return glm::dvec3(light.power) * (falloff(light, to_light, distance_squared) / distance_squared);
   const glm::dvec3 across = glm::cross(light.edge_u, light.edge_v);
   const double facing = std::max(-glm::dot(across, to_light), 0.0) / std::sqrt(distance_squared);
-  return glm::dvec3(light.power) * (4.0 * facing / distance_squared);
+  return glm::dvec3(light.power) * (flat_area(light.kind) * facing / distance_squared);
 }
 
 /// Sum over all lights.

@@ -232,7 +232,7 @@ Item item_of(const Light& light, std::uint32_t index) {
     const dvec3 across = glm::cross(dvec3(light.edge_u), dvec3(light.edge_v));
     item.radius = std::hypot(glm::length(light.edge_u), glm::length(light.edge_v));
     item.cone = {glm::normalize(across), 0.0, 0.5 * pi};
-    item.power *= 4.0 * glm::length(across);
+    item.power *= flat_area(light.kind) * glm::length(across);
   } else if (light.spot_scale > 0.0F) {
     item.cone = {dvec3(light.spot_axis), std::acos(std::clamp(double(light.spot_cosine), -1.0, 1.0)), 0.0};
   }

@@ -1,5 +1,6 @@
 /// What objects look like, and the lights they are seen by. Materials are of shaders/layout.h.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <glm/glm.hpp>
@@ -28,11 +29,18 @@ struct SceneLight {
   bool operator==(const SceneLight&) const = default;
 };
 
-/// The last LIGHT_*. Flat lights, whose half edges span them, come last.
-inline constexpr std::uint32_t LIGHT_KIND_LAST = LIGHT_RECTANGLE;
+/// Flat lights lie within the rectangle of their edges and shine towards cross(u, v). The area of each kind of them, in units of
+/// that vector's length, from LIGHT_RECTANGLE on: flat kinds come last.
+inline constexpr std::array FLAT_AREAS = {4.0};
 
-/// Whether lights of a kind are flat: they shine from within the rectangle of their edges towards cross(u, v).
+/// The last LIGHT_*.
+inline constexpr std::uint32_t LIGHT_KIND_LAST = LIGHT_RECTANGLE + FLAT_AREAS.size() - 1;
+
+/// Whether lights of a kind are flat.
 [[nodiscard]] constexpr bool is_flat(std::uint32_t kind) { return kind >= LIGHT_RECTANGLE; }
+
+/// A flat kind's number of FLAT_AREAS.
+[[nodiscard]] constexpr double flat_area(std::uint32_t kind) { return FLAT_AREAS.at(kind - LIGHT_RECTANGLE); }
 
 /// Whether a light has a size.
 [[nodiscard]] inline bool is_sized(const SceneLight& light) {

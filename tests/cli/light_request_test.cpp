@@ -37,9 +37,14 @@ TEST(LightText, OneSpellingSaysAllOfEachKind) {
 TEST(LightText, IsReadAgainAsItWas) {
   for (const char* text :
        {"point:at=1,2,3", "point:at=1,2,3,power=4,5,6,radius=0.5,range=7", "sun:from=0,0,1,angle=0.53",
-        "spot:at=0,3,0,to=0,2,0,cone=17,inner=5,power=1,2,3,range=9", "spot:at=0,3,0,to=1,3,0,cone=90"})
-    EXPECT_EQ(light_text(read_light(text)), text);
+        "spot:at=0,3,0,to=0,2,0,cone=17,inner=5,power=1,2,3,range=9", "spot:at=0,3,0,to=1,3,0,cone=90"}) {
+    const LightRequest read = read_light(text);
+    EXPECT_EQ(light_text(read), text);
+    EXPECT_EQ(std::string(text).find(light_kind_name(read.light) + std::string(":")), 0U);
+  }
   const LightRequest turned = read_light("rectangle:at=0,3,0,to=0,0,0,width=2,height=1,up=1,0,0");
+  EXPECT_STREQ(light_kind_name(turned.light), "rectangle");
+  EXPECT_EQ(light_kind_names(), "point, spot, sun or rectangle");
   EXPECT_TRUE(turned.has_power) << "what its target gets";
   const SceneLight again = read_light(light_text(turned)).light;
   EXPECT_NEAR(glm::distance(again.edge_u, turned.light.edge_u), 0.0, 1e-15);

@@ -177,7 +177,7 @@ TEST(SceneCheck, FindsLightsOutOfRange) {
     return found_after([&](Scene& s) { s.lights[0] = light; });
   };
   EXPECT_EQ(found({LIGHT_POINT, glm::dvec3(0.0), vec3(0.0F)}), "");
-  EXPECT_NE(found({LIGHT_RECTANGLE + 1, glm::dvec3(1.0), vec3(1.0F)}), "");
+  EXPECT_NE(found({LIGHT_KIND_LAST + 1, glm::dvec3(1.0), vec3(1.0F)}), "");
   EXPECT_NE(found({LIGHT_DIRECTIONAL, glm::dvec3(0.0), vec3(1.0F)}), "");
   EXPECT_NE(found({LIGHT_POINT, glm::dvec3(NAN), vec3(1.0F)}), "");
   for (const float wrong : {-1.0F, INFINITY, NAN})

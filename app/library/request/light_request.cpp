@@ -16,7 +16,7 @@ namespace {
 
 using Values = std::map<std::string, std::vector<double>>;
 
-/// Kinds of lights as texts have them, a bit each.
+/// Kinds of lights as texts have them, a bit each: what each has of LIGHT_KEYS.
 enum KindBits : unsigned {
   POINT = 1,
   SPOT = 2,
@@ -25,8 +25,14 @@ enum KindBits : unsigned {
   PLACED = POINT | SPOT | RECTANGLE,
   EVERY = PLACED | SUN
 };
-constexpr std::array<std::pair<const char*, KindBits>, 4> LIGHT_KINDS = {
-    {{"point", POINT}, {"spot", SPOT}, {"sun", SUN}, {"rectangle", RECTANGLE}}};
+struct LightKind {
+  const char* name;
+  KindBits bit;
+  std::uint32_t kind;  ///< LIGHT_*
+};
+constexpr std::array LIGHT_KINDS = {
+    LightKind{"point", POINT, LIGHT_POINT}, LightKind{"spot", SPOT, LIGHT_POINT},
+    LightKind{"sun", SUN, LIGHT_DIRECTIONAL}, LightKind{"rectangle", RECTANGLE, LIGHT_RECTANGLE}};
 
 /// A number or vector of a light: what it is called, which kinds have it and which of these must, how many numbers it is, and its
 /// least and most.
@@ -65,37 +71,55 @@ std::string key_names(unsigned kind) {
   return names;
 }
 
-KindBits read_kind(const std::string& name) {
-  std::vector<std::string> names;
-  for (const auto& [known, bit] : LIGHT_KINDS) {
-    if (name == known) return bit;
-    names.emplace_back(known);
+/// The names of all kinds with what is behind each: "point:, spot: or sun:".
+std::string kind_names(const char* behind) {
+  std::string names;
+  for (const LightKind& kind : LIGHT_KINDS) {
+    const bool last = &kind == &LIGHT_KINDS.back();
+    names += std::string(names.empty() ? "" : (last ? " or " : ", ")) + kind.name + behind;
   }
-  throw Expected{"a light of the kind point:, spot:, sun: or rectangle:" + did_you_mean(name, names)};
+  return names;
 }
 
-const LightKey& key_of(const std::string& name, KindBits kind, const std::string& kind_name) {
+const LightKind& read_kind(const std::string& name) {
+  std::vector<std::string> names;
+  for (const LightKind& kind : LIGHT_KINDS) {
+    if (name == kind.name) return kind;
+    names.emplace_back(kind.name);
+  }
+  throw Expected{"a light of the kind " + kind_names(":") + did_you_mean(name, names)};
+}
+
+/// That of a light whose LIGHT_* is one of the table's.
+const LightKind& kind_of(const SceneLight& light) {
+  const auto is_it = [&](const LightKind& kind) {
+    return kind.kind == light.kind && (kind.kind != LIGHT_POINT || (kind.bit == SPOT) == is_spot(light));
+  };
+  return *std::find_if(LIGHT_KINDS.begin(), LIGHT_KINDS.end(), is_it);
+}
+
+const LightKey& key_of(const std::string& name, const LightKind& kind) {
   for (const LightKey& key : LIGHT_KEYS)
-    if (name == key.name && (key.kinds & kind) != 0) return key;
-  throw Expected{"of a " + kind_name + " some of " + key_names(kind)};
+    if (name == key.name && (key.kinds & kind.bit) != 0) return key;
+  throw Expected{std::string("of a ") + kind.name + " some of " + key_names(kind.bit)};
 }
 
 /// The numbers of each key: of key=1,2,3,other=4 the parts without = belong to the key before.
-Values read_values(const std::string& text, KindBits kind, const std::string& kind_name) {
+Values read_values(const std::string& text, const LightKind& kind) {
   Values values;
   const LightKey* key = nullptr;
   for (std::string part : split_names(text)) {
     if (const std::size_t equals = part.find('='); equals != std::string::npos) {
-      key = &key_of(part.substr(0, equals), kind, kind_name);
+      key = &key_of(part.substr(0, equals), kind);
       values[key->name].clear();
       part = part.substr(equals + 1);
     }
-    if (key == nullptr) throw Expected{"of a " + kind_name + " some of " + key_names(kind)};
+    if (key == nullptr) key = &key_of("", kind);
     values[key->name].push_back(read_number(part, key->least, key->most, /*whole=*/false));
   }
   for (const LightKey& known : LIGHT_KEYS) {
-    if ((known.needed & kind) != 0 && !values.contains(known.name))
-      throw Expected{std::string(known.name) + "= of a " + kind_name};
+    if ((known.needed & kind.bit) != 0 && !values.contains(known.name))
+      throw Expected{std::string(known.name) + "= of a " + kind.name};
     if (values.contains(known.name) && values[known.name].size() != known.count)
       throw Expected{std::to_string(known.count) + (known.count == 1 ? " number" : " numbers") + " in " +
                      known.name + "="};
@@ -156,6 +180,10 @@ void set_rectangle(const Values& values, LightRequest& asked) {
 
 double sun_degrees(const SceneLight& sun) { return degrees_of(sun.size, DEGREES_ACROSS_A_RADIAN); }
 
+std::string light_kind_names() { return kind_names(""); }
+
+const char* light_kind_name(const SceneLight& light) { return kind_of(light).name; }
+
 std::string light_keys_help() {
   std::string help;
   for (const LightKey& key : LIGHT_KEYS)
@@ -165,39 +193,38 @@ std::string light_keys_help() {
 
 LightRequest read_light(const std::string& text) {
   const std::string kind_name = text.substr(0, text.find(':'));
-  const KindBits kind = read_kind(kind_name);
-  const Values values =
-      read_values(text.substr(std::min(kind_name.size() + 1, text.size())), kind, kind_name);
+  const LightKind& kind = read_kind(kind_name);
+  const Values values = read_values(text.substr(std::min(kind_name.size() + 1, text.size())), kind);
   LightRequest asked;
   SceneLight& light = asked.light;
-  light.kind = kind == SUN ? LIGHT_DIRECTIONAL : (kind == RECTANGLE ? LIGHT_RECTANGLE : LIGHT_POINT);
-  light.position = vector_of(values, kind == SUN ? "from" : "at");
-  if (light.position == glm::dvec3(0.0) && kind == SUN) throw Expected{"a direction from= other than 0,0,0"};
+  light.kind = kind.kind;
+  light.position = vector_of(values, kind.bit == SUN ? "from" : "at");
+  if (light.position == glm::dvec3(0.0) && kind.bit == SUN)
+    throw Expected{"a direction from= other than 0,0,0"};
   asked.has_power = values.contains("power");
   if (asked.has_power) light.power = vector_of(values, "power");
   light.size =
-      kind == SUN ? number_of(values, "angle") / DEGREES_ACROSS_A_RADIAN : number_of(values, "radius");
+      kind.bit == SUN ? number_of(values, "angle") / DEGREES_ACROSS_A_RADIAN : number_of(values, "radius");
   light.range = number_of(values, "range");
-  if (kind == SPOT) set_spot(values, light);
-  if (kind == RECTANGLE) set_rectangle(values, asked);
+  if (kind.bit == SPOT) set_spot(values, light);
+  if (kind.bit == RECTANGLE) set_rectangle(values, asked);
   return asked;
 }
 
 std::string light_text(const LightRequest& asked) {
   const SceneLight& light = asked.light;
-  const bool sun = light.kind == LIGHT_DIRECTIONAL, rectangle = light.kind == LIGHT_RECTANGLE;
-  std::string text =
-      sun ? "sun:from=" : (rectangle ? "rectangle:at=" : (is_spot(light) ? "spot:at=" : "point:at="));
-  text += number_text(light.position);
+  const LightKind& kind = kind_of(light);
+  const bool sun = kind.bit == SUN;
+  std::string text = kind.name + std::string(sun ? ":from=" : ":at=") + number_text(light.position);
   const auto add = [&text](const char* key, const std::string& value) {
     text += std::string(",") + key + "=" + value;
   };
-  if (is_spot(light)) {
+  if (kind.bit == SPOT) {
     add("to", number_text(light.position + light.spot_axis));
     add("cone", number_text(degrees_of(light.spot_outer, DEGREES_A_RADIAN)));
     if (light.spot_inner > 0.0) add("inner", number_text(degrees_of(light.spot_inner, DEGREES_A_RADIAN)));
   }
-  if (rectangle) {
+  if (kind.bit == RECTANGLE) {
     add("to", number_text(light.position + glm::normalize(glm::cross(light.edge_u, light.edge_v))));
     add("width", number_text(2.0 * glm::length(light.edge_u)));
     add("height", number_text(2.0 * glm::length(light.edge_v)));

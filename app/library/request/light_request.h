@@ -29,11 +29,15 @@ struct LightRequest {
 /// The angle, degrees, that a sun seems to have.
 [[nodiscard]] double sun_degrees(const SceneLight& sun);
 
+/// The kinds of lights in texts, as a sentence lists them: "point, spot, sun or rectangle".
+[[nodiscard]] std::string light_kind_names();
+/// The kind of a light, one of them.
+[[nodiscard]] const char* light_kind_name(const SceneLight& light);
+
 /// The keys of a light's text with their units, as help lists them.
 [[nodiscard]] std::string light_keys_help();
 
-/// Reads KIND:key=value,... of the kinds point, spot, sun and rectangle, such as spot:at=0,3,0,to=0,0,0,cone=17,range=9. Throws
-/// Expected.
+/// Reads KIND:key=value,..., such as spot:at=0,3,0,to=0,0,0,cone=17,range=9. Throws Expected.
 [[nodiscard]] LightRequest read_light(const std::string& text);
 /// The text that read_light makes the same of, for all but level rectangles.
 [[nodiscard]] std::string light_text(const LightRequest& light);

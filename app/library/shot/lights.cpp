@@ -78,8 +78,9 @@ std::vector<SceneLight> resolve_lights(const Scene& scene, const Request& reques
 std::vector<SceneLight> lights_of_look(std::uint32_t look, std::vector<SceneLight> lights) {
   for (SceneLight& light : lights) {
     if (look != LOOK_PAPER || !is_flat(light.kind)) continue;
+    light.power *=
+        static_cast<float>(flat_area(light.kind) * glm::length(glm::cross(light.edge_u, light.edge_v)));
     light.kind = LIGHT_POINT;
-    light.power *= static_cast<float>(4.0 * glm::length(glm::cross(light.edge_u, light.edge_v)));
   }
   return lights;
 }

@@ -2,7 +2,6 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,8 +16,7 @@ using std::numbers::pi;
 constexpr std::size_t MOST_LIGHTS = 64;
 constexpr double POINT_DISTANCE_RADII = 2.0;  ///< of a new point light from the scene's centre
 constexpr float MOST_STRENGTH = 1e30F;
-constexpr std::array KINDS = {"sun ", "point light ", "area light "};  // LIGHT_*
-constexpr double NEW_CONE = pi / 6.0;                                  ///< of a new spot
+constexpr double NEW_CONE = pi / 6.0;  ///< of a new spot
 
 /// Over the viewer's shoulder, the direction of new lights.
 glm::dvec3 shoulder(const Document& document) {
@@ -89,7 +87,7 @@ void reach_controls(const Document& document, SceneLight& light) {
 void light_list(const std::vector<LightRequest>& lights, PanelState& state) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const SceneLight& light = lights[i].light;
-    const std::string name = (is_spot(light) ? "spot " : KINDS[light.kind]) + std::to_string(i + 1);
+    const std::string name = std::string(light_kind_name(light)) + " " + std::to_string(i + 1);
     if (ImGui::Selectable(name.c_str(), state.light == i)) state.light = static_cast<std::uint32_t>(i);
   }
 }

@@ -64,7 +64,7 @@ LightRequest read_rectangle(const std::string& text) {
 FieldText shortest_text(const LightRequest& asked) {
   const SceneLight& light = asked.light;
   const bool rectangle = light.kind == LIGHT_RECTANGLE, sun = light.kind == LIGHT_DIRECTIONAL;
-  if (is_spot(light) || light.range > 0.0 || (rectangle && !asked.level) ||
+  if (is_spot(light) || light.range > 0.0 || (is_flat(light.kind) && !asked.level) ||
       (light.size > 0.0 && !asked.has_power))
     return {"light", light_text(asked)};
   std::string text = number_text(light.position);
@@ -152,8 +152,9 @@ Field background_row() {
 std::vector<Field> light_fields() {
   return {
       light_row("light", LIGHT_POINT, "KIND:KEY=VALUE,...|X,Y,Z[,R,G,B[,SIZE]]",
-                "a point, spot, sun or rectangle instead of the scene's lights, such as "
-                "spot:at=0,3,0,to=0,0,0,cone=17,range=9; " +
+                "a " + light_kind_names() +
+                    " instead of the scene's lights, such as "
+                    "spot:at=0,3,0,to=0,0,0,cone=17,range=9; " +
                     light_keys_help() +
                     "; or by places a point: where it is, its intensity and radius; repeatable"),
       needed(light_row("sun", LIGHT_DIRECTIONAL, "X,Y,Z[,R,G,B[,SIZE]]",
