@@ -14,10 +14,20 @@ namespace {
 using Rgb = std::array<int, 3>;
 
 AovPixel hit(float z = 1.0F, std::uint32_t object = 0, std::uint32_t splat = 1) {
-  return {vec3(0.0F, 0.0F, 1.0F), z, object, splat, 0, 0};
+  AovPixel pixel{};
+  pixel.normal = vec3(0.0F, 0.0F, 1.0F);
+  pixel.z = z;
+  pixel.object = object;
+  pixel.splat = splat;
+  return pixel;
 }
 
-AovPixel miss() { return {vec3(0.0F), std::numeric_limits<float>::infinity(), NO_OBJECT, 0, 0, 0}; }
+AovPixel miss() {
+  AovPixel pixel{};
+  pixel.z = std::numeric_limits<float>::infinity();
+  pixel.object = NO_OBJECT;
+  return pixel;
+}
 
 std::vector<Rgb> colors(const std::vector<AovPixel>& pixels, ViewMode mode) {
   const std::vector<std::uint8_t> rgba = false_color(pixels, mode, color_range(pixels, mode));
@@ -114,9 +124,17 @@ TEST(FalseColorTest, BackFacesAreRedAndFrontFacesGrey) {
   EXPECT_GT(shown[1][0], 3 * shown[1][1]);
 }
 
-TEST(FalseColorTest, EveryModeHasAName) {
+TEST(FalseColorTest, EveryModeHasANameAndALegend) {
   std::set<std::string> names;
-  for (int i = 0; i < VIEW_MODE_COUNT; ++i) names.insert(view_mode_name(static_cast<ViewMode>(i)));
+  for (int i = 0; i < VIEW_MODE_COUNT; ++i) {
+    const auto mode = static_cast<ViewMode>(i);
+    names.insert(view_mode_name(mode));
+    EXPECT_EQ(std::string(view_mode_legend(mode)).empty(), mode == ViewMode::shaded);
+  }
+  for (const ViewMode mode : {ViewMode::depth, ViewMode::tests, ViewMode::steps})
+    EXPECT_TRUE(has_scale(mode));
+  for (const ViewMode mode : {ViewMode::normal, ViewMode::object, ViewMode::facing})
+    EXPECT_FALSE(has_scale(mode));
   EXPECT_EQ(names.size(), static_cast<std::size_t>(VIEW_MODE_COUNT));
   EXPECT_EQ(std::string(view_mode_name(ViewMode::steps)), "steps");
 }

@@ -13,7 +13,7 @@
 
 namespace splatray {
 
-/// What a pixel shows.
+/// What a pixel shows; its row in false_color.cpp has its name, value and legend.
 enum class ViewMode {
   shaded,
   normal,  ///< world normal, each axis -1..1 as 0..1
@@ -24,6 +24,7 @@ enum class ViewMode {
   tests,   ///< heat map of splat tests
   steps    ///< heat map of node words read
 };
+inline constexpr int VIEW_MODE_COUNT = static_cast<int>(ViewMode::steps) + 1;
 
 /// What stays as it was loaded.
 struct LoadedPart {

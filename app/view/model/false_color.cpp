@@ -29,18 +29,24 @@ glm::vec3 face_color(const AovPixel& pixel) {
   return (pixel.splat & 1U) != 0 ? glm::vec3(light) : light * glm::vec3(1.0F, 0.22F, 0.18F);
 }
 
-double value_of(const AovPixel& pixel, ViewMode mode) {
-  switch (mode) {
-    case ViewMode::depth:
-      return pixel.z;
-    case ViewMode::tests:
-      return pixel.tests;
-    case ViewMode::steps:
-      return pixel.steps;
-    default:
-      return 0.0;
-  }
-}
+/// What each mode is called, what its colours mean, and the value on its scale, if it has one.
+struct ModeRow {
+  const char* name;
+  const char* legend;
+  double (*value)(const AovPixel& pixel);
+};
+constexpr std::array<ModeRow, VIEW_MODE_COUNT> MODES = {{
+    {"shaded", "", nullptr},
+    {"normal", "normal: red x, green y, blue z, each from -1 to 1", nullptr},
+    {"depth", "distance from the eye, world units", [](const AovPixel& p) { return double(p.z); }},
+    {"object", "a colour for each object", nullptr},
+    {"splat", "a colour for each splat", nullptr},
+    {"facing", "front faces grey, back faces red", nullptr},
+    {"tests", "splat tests of the pixel's ray", [](const AovPixel& p) { return double(p.tests); }},
+    {"steps", "node words read by the pixel's ray", [](const AovPixel& p) { return double(p.steps); }},
+}};
+
+const ModeRow& row_of(ViewMode mode) { return MODES.at(static_cast<std::size_t>(mode)); }
 
 bool counts(ViewMode mode) { return mode == ViewMode::tests || mode == ViewMode::steps; }
 
@@ -56,13 +62,10 @@ glm::vec3 pixel_color(const AovPixel& pixel, ViewMode mode, const ColorRange& ra
       return hash_color(pixel.splat >> 1U);
     case ViewMode::facing:
       return face_color(pixel);
-    case ViewMode::depth:
-    case ViewMode::tests:
-    case ViewMode::steps:
-    case ViewMode::shaded:
-      break;
+    default:
+      return heat_color(
+          static_cast<float>((row_of(mode).value(pixel) - range.low) / (range.high - range.low)));
   }
-  return heat_color(static_cast<float>((value_of(pixel, mode) - range.low) / (range.high - range.low)));
 }
 
 /// Ends of an ascending pair that may be empty, infinite or equal.
@@ -73,26 +76,25 @@ ColorRange usable_range(double low, double high) {
 
 }  // namespace
 
-const char* view_mode_name(ViewMode mode) {
-  static constexpr std::array<const char*, VIEW_MODE_COUNT> NAMES = {"shaded", "normal", "depth", "object",
-                                                                     "splat",  "facing", "tests", "steps"};
-  return NAMES[static_cast<std::size_t>(mode)];
-}
+const char* view_mode_name(ViewMode mode) { return row_of(mode).name; }
+const char* view_mode_legend(ViewMode mode) { return row_of(mode).legend; }
+bool has_scale(ViewMode mode) { return row_of(mode).value != nullptr; }
 
 ColorRange color_range(std::span<const AovPixel> pixels, ViewMode mode) {
-  if (mode == ViewMode::depth) {
+  const auto value = row_of(mode).value;
+  if (value == nullptr || pixels.empty()) return {};
+  if (!counts(mode)) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const AovPixel& pixel : pixels) {
       if (pixel.object == NO_OBJECT) continue;
-      low = std::min(low, double(pixel.z));
-      high = std::max(high, double(pixel.z));
+      low = std::min(low, value(pixel));
+      high = std::max(high, value(pixel));
     }
     return usable_range(low, high);
   }
-  if (!counts(mode) || pixels.empty()) return {};
   std::vector<double> values;
   values.reserve(pixels.size());
-  for (const AovPixel& pixel : pixels) values.push_back(value_of(pixel, mode));
+  for (const AovPixel& pixel : pixels) values.push_back(value(pixel));
   const auto nth = values.begin() + std::ptrdiff_t(COUNTED_SHARE * double(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return {0.0, std::max(1.0, *nth)};

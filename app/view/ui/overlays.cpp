@@ -132,32 +132,12 @@ void legend(const PanelView& view, float width_px) {
   const Frame& frame = *view.frame;
   if (frame.mode == ViewMode::shaded && frame.legend.title.empty()) return;
   begin_overlay("##legend", width_px, {0.0F, 0.0F}, ImGuiWindowFlags_NoInputs);
-  switch (frame.mode) {
-    case ViewMode::depth:
-      color_scale(frame.range, "distance from the eye, world units", heat_color);
-      break;
-    case ViewMode::tests:
-      color_scale(frame.range, "splat tests of the pixel's ray", heat_color);
-      break;
-    case ViewMode::steps:
-      color_scale(frame.range, "node words read by the pixel's ray", heat_color);
-      break;
-    case ViewMode::normal:
-      ImGui::TextUnformatted("normal: red x, green y, blue z, each from -1 to 1");
-      break;
-    case ViewMode::object:
-      ImGui::TextUnformatted("a colour for each object");
-      break;
-    case ViewMode::splat:
-      ImGui::TextUnformatted("a colour for each splat");
-      break;
-    case ViewMode::facing:
-      ImGui::TextUnformatted("front faces grey, back faces red");
-      break;
-    case ViewMode::shaded:
-      attribute_legend(frame.legend);
-      break;
-  }
+  if (frame.mode == ViewMode::shaded)
+    attribute_legend(frame.legend);
+  else if (has_scale(frame.mode))
+    color_scale(frame.range, view_mode_legend(frame.mode), heat_color);
+  else
+    ImGui::TextUnformatted(view_mode_legend(frame.mode));
   ImGui::End();
 }
 
