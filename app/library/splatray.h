@@ -227,7 +227,7 @@ class SPLATRAY_API Request {
 class Scene;
 /// Reads scenes, models and scans in the formats that the guide's page formats.md lists, folders of scans, or one .soct alone. Of files in
 /// levels (COPC) all points are read unless the request has "lod": then what its picture needs, and what each picture needs when it is made.
-/// Of the request: how they are read and built, device, threads, colours, materials, up direction; automatic settings of pictures
+/// The request says how they are read and built, device, threads, colours, materials, up direction; automatic settings of pictures
 /// are chosen once and reused for this scene. Throws Error (input, usage, cancelled, out_of_memory).
 [[nodiscard]] SPLATRAY_API Scene open(std::span<const std::filesystem::path> files,
                                       const Request& request = {}, const Progress& progress = {});
