@@ -53,6 +53,8 @@ const std::map<std::string, std::string> TEXTS = {{"inputs", "other.ply"},
                                                   {"camera-path", "path.json"},
                                                   {"frames", "0-3"},
                                                   {"exposure", "-0.75"},
+                                                  {"lod", "0.5"},
+                                                  {"max-memory", "4194304K"},
                                                   {"delta", "0.25"}};
 
 /// Fields that become others when a scene is shown, and why.

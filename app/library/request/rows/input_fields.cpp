@@ -71,14 +71,14 @@ Field lod_row() {
 
 /// A number of bytes, with a letter for powers of 1024.
 Field max_memory_row() {
-  constexpr double MOST_GIB = 1e6, KIB = 1024.0;
+  constexpr double MOST = 1e9, KIB = 1024.0;
   return value_row(
       "max-memory", INPUT, "SIZE",
       "memory that the points of files in levels may take, such as 4G; default 60 % of what there is",
       [](Request& request, const std::string& text) {
         const std::size_t letter = std::string("KMG").find(text.empty() ? ' ' : text.back());
         const auto number = split_numbers(text.substr(0, text.empty() ? 0 : text.size() - 1), ',', 1);
-        if (letter == std::string::npos || number.empty() || !(number[0] > 0.0 && number[0] <= MOST_GIB))
+        if (letter == std::string::npos || number.empty() || !(number[0] > 0.0 && number[0] <= MOST))
           throw Expected{"a number with K, M or G, such as 4G"};
         const double bytes = number[0] * std::pow(KIB, 1.0 + static_cast<double>(letter));
         request.source.memory_bytes = static_cast<std::uint64_t>(bytes);
