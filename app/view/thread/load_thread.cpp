@@ -150,7 +150,7 @@ void LoadThread::load_now(const Request& asked) {
   bool worth_keeping = false;
   SharedScene scene;
   SceneFacts facts;
-  levels_ = {in_levels(request), {}, {}};
+  levels_ = {request.source, in_levels(request), {}, {}};
   if (levels_.files.paths.empty()) {
     scene = std::make_shared<const Scene>(made_scene(request, listener, worth_keeping));
     facts = facts_of(*scene);
@@ -165,13 +165,14 @@ void LoadThread::load_now(const Request& asked) {
   if (is_cancelled()) return;
   deliver([&](LoadNews& news) {
     news.opened = std::move(opened);
+    news.refined.reset();
     news.progress.reset();
   });
   if (kept) cache_.keep(request, *kept, [this](const char*, double) { return !is_cancelled(); });
 }
 
 void LoadThread::refine_now(const Request& asked) {
-  if (levels_.files.paths.empty()) return;
+  if (levels_.files.paths.empty() || asked.source != levels_.source) return;  // of the scene before
   const Request request = plain_scene_of(asked);
   LoadedScene loaded =
       load_needed(request, levels_.files, levels_.facts, {listener_for(asked).progress, {}}, levels_.shown);

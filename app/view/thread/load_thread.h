@@ -71,6 +71,7 @@ class LoadThread {
   SceneCache cache_;
   /// The scene opened last, of files in levels. Of the thread alone.
   struct {
+    Request::Source source;
     InLevels files;
     SceneFacts facts;
     ChosenNodes shown;  ///< none: the overview

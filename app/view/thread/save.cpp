@@ -10,7 +10,6 @@
 #include "app/view/model/document_request.h"
 
 namespace splatray {
-
 namespace {
 
 /// Makes the shot's pictures; returns a sentence about them.
