@@ -103,10 +103,6 @@ class DirectoryReader {
     if (points > 0 && !lies_in_file(offset, static_cast<std::uint64_t>(bytes)))
       refuse("points at " + std::to_string(offset) + ", expected them within the file's " +
              std::to_string(size_) + " bytes");
-    if (!keys_.insert(key).second) refuse("a node twice");
-    points_ += static_cast<std::uint64_t>(points);
-    if (points_ > header_.point_count)
-      refuse("more points than the " + std::to_string(header_.point_count) + " that the header counts");
     nodes_.push_back({level,
                       {key[1], key[2], key[3]},
                       LevelNode::NO_PARENT,
@@ -115,7 +111,7 @@ class DirectoryReader {
                       static_cast<std::uint64_t>(bytes)});
   }
 
-  /// Puts parents before their children, which know them then.
+  /// Puts parents before their children, which know them then; counts the points.
   void link() {
     const auto order = [](const LevelNode& node) {
       return std::tuple(node.level, node.cell.x, node.cell.y, node.cell.z);
@@ -123,23 +119,27 @@ class DirectoryReader {
     std::sort(nodes_.begin(), nodes_.end(),
               [&](const LevelNode& a, const LevelNode& b) { return order(a) < order(b); });
     std::unordered_map<Key, std::uint32_t, HashOfKey> places;
+    std::uint64_t points = 0;
     for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
       LevelNode& node = nodes_[i];
-      places[{node.level, node.cell.x, node.cell.y, node.cell.z}] = i;
+      if (!places.emplace(Key{node.level, node.cell.x, node.cell.y, node.cell.z}, i).second)
+        refuse("a node twice");
+      points += node.points;
       if (node.level == 0) continue;
       const auto parent =
           places.find({node.level - 1, node.cell.x >> 1U, node.cell.y >> 1U, node.cell.z >> 1U});
       if (parent == places.end()) refuse("a node without its parent");
       node.parent = parent->second;
     }
+    if (points > header_.point_count)
+      refuse("more points than the " + std::to_string(header_.point_count) + " that the header counts");
   }
 
   ByteReader& in_;
   const LasHeader& header_;
-  std::uint64_t size_ = 0, points_ = 0;
+  std::uint64_t size_ = 0;
   std::vector<Page> pages_;
   std::set<std::uint64_t> seen_;
-  std::set<Key> keys_;
   std::vector<LevelNode> nodes_;
 };
 

@@ -99,11 +99,14 @@ void add_levels(const Levels& levels, std::vector<FileFact>& facts) {
 }
 
 /// The chunks of the nodes that are chosen of the file; nothing: all.
-std::optional<std::vector<LazChunk>> chosen_chunks(ByteReader& in, const LasHeader& header,
-                                                   const LasVlrs& vlrs, const ChosenNodes& nodes) {
-  const auto chosen = nodes.find(in.path());
+std::optional<std::vector<LazChunk>> chosen_chunks(const std::filesystem::path& path, const Levels& levels,
+                                                   const ChosenNodes& nodes) {
+  const auto chosen = nodes.find(path);
   if (chosen == nodes.end()) return std::nullopt;
-  return chunks_of(read_copc(in, header, vlrs), chosen->second);
+  if (!chosen->second.empty() && chosen->second.back() >= levels.nodes.size())
+    throw_unreadable(path, "found " + std::to_string(levels.nodes.size()) +
+                               " nodes in its directory, expected more: it has changed");
+  return chunks_of(levels, chosen->second);
 }
 
 std::uint64_t points_in(const std::vector<LazChunk>& chunks) {
@@ -127,8 +130,10 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   file.counts.stored = header.point_count;
   file.facts = facts_of(header, vlrs);
   file.said_box = {header.box_low, header.box_high};
+  Levels levels;
   try {
-    add_levels(read_copc(in, header, vlrs), file.facts);
+    levels = read_copc(in, header, vlrs);
+    add_levels(levels, file.facts);
   } catch (const Error& error) {
     listener.notes.emplace_back(error.what());
   }
@@ -136,7 +141,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
     file.points.crs = las_crs(vlrs);
     return file;
   }
-  const auto chosen = chosen_chunks(in, header, vlrs, options.nodes);
+  const auto chosen = chosen_chunks(path, levels, options.nodes);
   if (chosen) file.counts.stored = points_in(*chosen);
   const std::uint64_t found =
       header.is_compressed ? read_laz_points(in, header, vlrs.laszip, chosen, columns, file.counts, listener)

@@ -101,6 +101,22 @@ TEST_F(Copc, NodesAreTheirPartOfTheFile) {
   EXPECT_EQ(some.points.position, expected);
 }
 
+/// A file may be replaced between the look at its directory and the reading.
+TEST_F(Copc, NodesThatAreNoLongerThereAreASentence) {
+  const std::filesystem::path path = write(entries());
+  ReadOptions options;
+  options.nodes = {{path, {0, 4}}};
+  std::vector<std::string> notes;
+  try {
+    static_cast<void>(read_las(path, options, {notes, options.progress}));
+    FAIL() << "a node beyond the directory was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::input_unreadable);
+    EXPECT_NE(std::string(error.what()).find("found 4 nodes in its directory"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(Copc, PagesMayLieInPages) {
   std::string file = copc_of(laz, 0.0, EDGE, {node({0, 0, 0, 0}, 0), {{1, 0, 0, 0}, 0, 64, -1}});
   const std::string more = copc_of(laz, 0.0, EDGE, {node({1, 0, 0, 0}, 1), node({2, 1, 0, 1}, 2)});

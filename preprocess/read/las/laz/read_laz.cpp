@@ -80,9 +80,11 @@ class LazReader {
 
   std::uint64_t read(const std::vector<LazChunk>& chunks) {
     expected_ = 0;
-    for (const LazChunk& chunk : chunks) expected_ += chunk.points;
     std::uint64_t bytes = 0;
-    for (const LazChunk& chunk : chunks) bytes += chunk.bytes;
+    for (const LazChunk& chunk : chunks) {
+      expected_ += chunk.points;
+      bytes += chunk.bytes;
+    }
     columns_.reserve(static_cast<std::size_t>(std::min(expected_, bytes * MOST_POINTS_PER_BYTE)));
     read_chunks(chunks);
     return decoded_;
