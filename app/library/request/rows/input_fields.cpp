@@ -138,12 +138,12 @@ std::vector<Field> input_fields() {
     row.doors |= DOOR_PREPROCESS;
     row.traits |= OF_SCENES;
   }
+  rows.front().traits = 0;  // what is opened, not how
+  rows.back().traits |= NOT_OF_LIGHT;
   for (Field row : {lod_row(), max_memory_row()}) {  // of pictures alone
     row.traits |= OF_SCENES | NOT_OF_LIGHT;
     rows.push_back(row);
   }
-  rows.front().traits = 0;  // what is opened, not how
-  rows[rows.size() - 3].traits |= NOT_OF_LIGHT;
   rows[2].old_names = {"points", "samples"};
   return rows;
 }
