@@ -1,5 +1,5 @@
-# The headers that most files include, compiled once for libraries and once for programs of GoogleTest: half of a compiler's work on most
-# files. For builds that are tested; the others show whether each file includes what it needs.
+# The headers that most files include, compiled once for libraries, for those of the tests and for programs of GoogleTest: half of a compiler's
+# work on most files. For builds that are tested; the others show whether each file includes what it needs.
 set(headers <algorithm> <array> <bit> <cassert> <cmath> <cstdint> <cstdio> <cstdlib> <cstring> <filesystem> <fstream> <functional>
             <iostream> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <span> <sstream> <string> <string_view> <utility>
             <vector> <glm/glm.hpp>)
@@ -7,13 +7,17 @@ find_package(glm REQUIRED)
 find_package(GTest REQUIRED)
 file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "")
 
-function(add_precompiled name)
+# add_precompiled(NAME FOLDER): as the libraries of a folder are compiled.
+function(add_precompiled name folder)
+  get_property(options DIRECTORY ${folder} PROPERTY COMPILE_OPTIONS)
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  set_target_properties(${name} PROPERTIES COMPILE_OPTIONS "${options}")
   target_link_libraries(${name} PRIVATE glm::glm)
   target_precompile_headers(${name} PRIVATE ${headers})
 endfunction()
-add_precompiled(precompiled)
-add_precompiled(precompiled_tests)
+add_precompiled(precompiled ${PROJECT_SOURCE_DIR})
+add_precompiled(precompiled_test_libraries ${PROJECT_SOURCE_DIR}/tests)
+add_precompiled(precompiled_tests ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(precompiled_tests PRIVATE GTest::gtest)
 target_precompile_headers(precompiled_tests PRIVATE <gtest/gtest.h>)
 # As programs are compiled.
@@ -34,7 +38,8 @@ function(skip_options_of_files target)
 endfunction()
 
 # All targets of a folder and those below that are compiled as the folder's, not with options of their own.
-function(use_precompiled folder options)
+function(use_precompiled folder of_libraries)
+  get_property(options DIRECTORY ${folder} PROPERTY COMPILE_OPTIONS)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
@@ -44,7 +49,7 @@ function(use_precompiled folder options)
       continue()
     elseif(type MATCHES "(STATIC|SHARED|MODULE)_LIBRARY")
       skip_options_of_files(${target})
-      target_precompile_headers(${target} REUSE_FROM precompiled)
+      target_precompile_headers(${target} REUSE_FROM ${of_libraries})
     elseif(type STREQUAL EXECUTABLE AND links MATCHES "GTest::gtest")
       skip_options_of_files(${target})
       target_precompile_headers(${target} REUSE_FROM precompiled_tests)
@@ -52,12 +57,16 @@ function(use_precompiled folder options)
   endforeach()
   get_property(subfolders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
   foreach(subfolder ${subfolders})
-    use_precompiled(${subfolder} "${options}")
+    cmake_path(GET subfolder FILENAME name)
+    if(name STREQUAL tests)
+      use_precompiled(${subfolder} precompiled_test_libraries)
+    else()
+      use_precompiled(${subfolder} ${of_libraries})
+    endif()
   endforeach()
 endfunction()
 
-get_property(options DIRECTORY PROPERTY COMPILE_OPTIONS)
-use_precompiled(${PROJECT_SOURCE_DIR} "${options}")
+use_precompiled(${PROJECT_SOURCE_DIR} precompiled)
 # With options of its own, but many files.
 skip_options_of_files(splatray_preprocess)
 target_precompile_headers(splatray_preprocess PRIVATE ${headers} <tbb/parallel_for.h> <tbb/parallel_reduce.h> <tbb/parallel_sort.h>)
