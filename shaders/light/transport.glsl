@@ -60,15 +60,26 @@ EmissionSample no_emission_sample() {
   return probe;
 }
 
-/// Towards one of the lights, splats that send out light, or the environment.
-EmissionSample sample_emitter(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside) {
+/// Whether some light is met by rays alone: a constant environment, and splats that send out light and are not looked for.
+bool light_met_alone() {
+  bool sky = !SKY && max(frame.environment.x, max(frame.environment.y, frame.environment.z)) > 0.0f;
+  return sky || (EMISSION && frame.emitters == 0u);
+}
+
+/// Whether a path's vertex takes all direct light by looking for it: the last one, behind which no ray follows that would meet
+/// some of it.
+bool takes_all_light(uint bounce) { return bounce >= frame.max_bounces && !light_met_alone(); }
+
+/// Towards one of the lights, splats that send out light, or the environment. `all`: nothing else finds their light.
+EmissionSample sample_emitter(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside, bool all) {
   LightSample chosen = light_sample(receiver_at(hit.position, hit.plane, hit.object), random);
   EmissionSample probe;
   vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
   vec3 value = bsdf_value(bsdf, to_eye, to_light, probe.pdf);
   probe.splat = chosen.splat;
   bool emitter = EMISSION && probe.splat != NO_SPLAT;
-  probe.share = LOOK == LOOK_SCAN || emitter ? 1.0f : mis_weight(chosen.pdf, probe.pdf);
+  probe.pdf = all ? 0.0f : probe.pdf;
+  probe.share = LOOK == LOOK_SCAN || emitter || all ? 1.0f : mis_weight(chosen.pdf, probe.pdf);
   probe.light = value * chosen.radiance;
   if (through_plane(hit, chosen.dir, to_light.z)) probe.light = vec3(0.0f);
   uint object_bit = 0u;
@@ -167,7 +178,7 @@ void sample_lights(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_ey
       vec4 random_sky = sobol_sample(pixel, sample_index, 2u, frame.seed);
       probe = sample_sky_light(hit, bsdf, basis, vec2(random_sky), path.ray.inside);
     } else {
-      probe = sample_emitter(hit, bsdf, basis, to_eye, vec3(random), path.ray.inside);
+      probe = sample_emitter(hit, bsdf, basis, to_eye, vec3(random), path.ray.inside, takes_all_light(path.bounce));
       to_lights = false;
     }
     if (EMISSION && probe.splat != NO_SPLAT && probe.ray.t_max >= 0.0f) {
@@ -188,6 +199,13 @@ void sample_lights(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_ey
   } while (to_lights);
 }
 
+/// Ends a path at the bounce limit where it is `cut`.
+void cut_path(INOUT(Path) path, vec3 throughput, bool cut) {
+  path.cut = cut ? 1u : path.cut;
+  path.energy_lost = cut ? (throughput.x + throughput.y + throughput.z) / 3.0f : path.energy_lost;
+  path.alive = path.alive && !cut;
+}
+
 /// Has the path go on from a hit.
 void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
   BsdfSample chosen = bsdf_direction(bsdf, to_eye, vec3(random));
@@ -202,10 +220,9 @@ void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec
     path.below = 1u;
     path.energy_below = (path.throughput.x + path.throughput.y + path.throughput.z) / 3.0f;
   }
-  bool cut = path.alive && path.bounce >= frame.max_bounces;
-  path.cut = cut ? 1u : path.cut;
-  path.energy_lost = cut ? (throughput.x + throughput.y + throughput.z) / 3.0f : path.energy_lost;
-  path.alive = path.alive && !cut;
+  // Mirrors and glass show light that only rays meet: behind the last vertex they still see where it comes from.
+  bool cut = path.alive && takes_all_light(path.bounce) && (chosen.event & BSDF_DELTA) == 0u;
+  cut_path(path, throughput, cut);
   if (path.bounce >= ROULETTE_BOUNCE) {
     float survival = min(most, 1.0f);
     path.alive = path.alive && random.w < survival;
@@ -259,6 +276,11 @@ void shade_hit(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(E
     vec3 sent = material.emission;
     float share = path.pdf > 0.0f ? emitter_share(path.pdf, path.ray, sent) : 1.0f;
     path.radiance += clamped(path.throughput * sent * share, max(path.bounce, 1u) - 1u);
+  }
+  // Behind the last vertex a ray finds what sends out light, and no more.
+  if (path.bounce > frame.max_bounces) {
+    cut_path(path, path.throughput, true);
+    return;
   }
   Basis basis = basis_of(hit.normal);
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));

@@ -192,6 +192,58 @@ TEST_F(Plane, RectangleOfLight) {
   EXPECT_NEAR(found.value, pi * 5.0 * form_factor, 1e-3 * found.value + 3.0 * found.error);
 }
 
+/// The floor alone sends no light back to itself: what it gets straight from lights is all there is, however few bounces there are.
+TEST_F(Plane, WithoutBouncesAllDirectLightArrives) {
+  bounces_ = 0;
+  SceneLight lamp{LIGHT_POINT, {0.3, 0.7, 0.0}, vec3(3.0F)};
+  lamp.size = 0.5;
+  SceneLight sun{LIGHT_DIRECTIONAL, {1.0, 1.0, 0.0}, vec3(3.0F)};
+  sun.size = 0.5;
+  SceneLight panel{LIGHT_RECTANGLE, {0.5, 0.5, 0.25}, vec3(5.0F)};
+  panel.edge_u = {0.5, 0.0, 0.0};
+  panel.edge_v = {0.0, 0.0, 0.25};  // cross(u, v) = -y
+  const double distance = glm::length(lamp.position), a = 2.0, b = 1.0;
+  const double p = std::sqrt(1.0 + a * a), q = std::sqrt(1.0 + b * b);
+  const double form_factor = (a / p * std::atan(b / p) + b / q * std::atan(a / q)) / (2.0 * pi);
+  const auto expect = [](const char* of, const Mean& found, double expected) {
+    EXPECT_NEAR(found.value, expected, 1e-3 * expected + 3.0 * found.error) << of;
+    EXPECT_LT(found.error, 0.01 * expected) << of;
+  };
+  expect("a ball", irradiance({lamp}, 1024), 3.0 * lamp.position.y / std::pow(distance, 3.0));
+  expect("a sun", irradiance({sun}, 1024), 3.0 * std::sqrt(0.5));
+  expect("a rectangle", irradiance({panel}, 1024), pi * 5.0 * form_factor);
+  expect("one radiance", irradiance({}, 64, constant(2.0F)), 2.0 * pi);
+  expect("a picture", irradiance({}, 1024, {64, 32, std::vector<glm::vec3>(64 * 32, vec3(2.0F)), vec3(0.0F)}),
+         2.0 * pi);
+  const dvec3 at(0.4, 1.0, 0.0);
+  Scene glowing = scene_of({floor(), {ball_at(at, 0.4, 5000), grey(0.0F)}});
+  glowing.materials.back().emission = vec3(4.0F);
+  show(glowing, constant(0.0F), {});
+  // Discs reach a little beyond the ball that they stand for.
+  const Mean splats = irradiance_shown(1024);
+  const double of_splats = pi * 4.0 * 0.4 * 0.4 * at.y / std::pow(glm::length(at), 3.0);
+  EXPECT_NEAR(splats.value, of_splats, 5e-3 * of_splats + 3.0 * splats.error);
+}
+
+/// Light that only rays meet: a mirror shows it at its last bounce, too.
+TEST_F(Plane, WithoutBouncesMirrorsShowWhatSendsOutLight) {
+  Scene scene = scene_of({floor()});
+  Material& mirror = scene.materials.front();
+  mirror.base = vec3(1.0F);
+  mirror.metallic = 1.0F;
+  mirror.roughness = 0.0F;
+  const Environment sky{64, 32, std::vector<glm::vec3>(64 * 32, vec3(2.0F)), vec3(0.0F)};
+  const std::vector<std::pair<const char*, Environment>> skies = {{"one radiance", constant(2.0F)},
+                                                                  {"a picture", sky}};
+  for (const auto& [name, environment] : skies) {
+    show(scene, environment, {});
+    Settings settings = lit(4);
+    settings.max_bounces = 0;
+    const Camera above{dvec3(0.0, 1.5, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 30.0, 0.001};
+    EXPECT_NEAR(mean_of(picture(above, settings, 4)).value, 2.0, 1e-3) << name;
+  }
+}
+
 /// From the plane's middle all of one light lies behind another, which has a size.
 TEST_F(Plane, LightsHideWhatIsBehindThem) {
   SceneLight before{LIGHT_POINT, {0.5, 0.5, 0.0}, vec3(1.0F)},

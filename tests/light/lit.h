@@ -117,9 +117,13 @@ class Plane : public Lit {
   }
   Mean irradiance_shown(std::uint32_t samples) {
     const Camera above{dvec3(0.0, 1.5, 0.0), dvec3(0.0), dvec3(0.0, 0.0, -1.0), 30.0, 0.001};
-    const Mean radiance = mean_of(picture(above, lit(samples), 4));
+    Settings settings = lit(samples);
+    settings.max_bounces = bounces_;
+    const Mean radiance = mean_of(picture(above, settings, 4));
     return {pi * radiance.value, pi * radiance.error};
   }
+
+  std::uint32_t bounces_ = 4096;
 };
 
 }  // namespace splatray::testing

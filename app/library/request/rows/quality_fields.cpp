@@ -70,8 +70,10 @@ std::vector<Field> quality_fields() {
           .marked(OF_FILES),
       noise_row("keep-noise", /*denoises=*/false, "do not take the noise out")
           .marked(OF_FILES | NOT_OF_LIGHT),
-      with(number_row("bounces", QUALITY, MEMBER(settings.max_bounces), 0, 64,
-                      "most secondary rays in a path; default 8"),
+      with(number_row(
+               "bounces", QUALITY, MEMBER(settings.max_bounces), 0, 64,
+               "most secondary rays in a path, but for the ray by which its last surface sees what sends out "
+               "light; default 8"),
            {.old_names = {"max-bounces"}})
           .of_looks({LOOK_PAPER, LOOK_LIT, LOOK_CLAY}),
       number_row("clamp", QUALITY, MEMBER(settings.clamp), 0.0, 1e9,
