@@ -7,6 +7,7 @@
 #include "app/library/measure/surface_point.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/command_line.h"
+#include "app/library/request/daylight_text.h"
 #include "app/library/shot/scene_source.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
@@ -164,7 +165,9 @@ void Viewer::take_render_news() {
     found_exposure_ev_ = news.exposure_ev;
     document_.request.look.exposure_ev = *news.exposure_ev;
   }
-  if ((news.light_at_camera || news.exposure_ev) && scene_ && !of_points_) history_.start(document_);
+  const bool adapted = news.exposure_ev && std::exchange(adapts_, false);
+  if ((news.light_at_camera || news.exposure_ev) && !adapted && scene_ && !of_points_)
+    history_.start(document_);
   if (!news.notice.empty()) panels_.notice = news.notice;
   if (!news.error.empty()) panels_.error = news.error;
   if (!news.pick) return;
@@ -392,7 +395,14 @@ void Viewer::submit() {
   const glm::uvec2 size = picture_px();
   if (scene_ && !of_points_)
     history_.see(document_, mouse_.is_held() || handle_ || presenter_.gui().is_editing());
-  if (has_view() && size.x > 0 && size.y > 0) renderer_.show(document_, size);
+  if (!has_view() || size.x == 0 || size.y == 0) return;
+  // Daylight is some hundred times as bright as other environments: where it comes or goes the exposure follows.
+  const std::string& environment = document_.request.look.environment;
+  const bool adapts =
+      environment != lit_by_ && (is_daylight(environment) || is_daylight(lit_by_)) && scene_ && !of_points_;
+  if (!of_points_) lit_by_ = environment;
+  adapts_ = adapts_ || adapts;
+  renderer_.open(nullptr, document_, size, {.exposure = adapts});
 }
 
 /// The part of the window that shows the picture, pixels; 0 x 0 while minimised.

@@ -90,7 +90,9 @@ class Viewer {
   Document document_;
   std::optional<double> asked_exposure_ev_;  ///< by an option; unset = what suits a scan, else as it was
   std::optional<double> found_exposure_ev_;  ///< that suits the scan shown
-  SharedScene scene_;                        ///< null: none is open
+  std::string lit_by_;                       ///< the environment that the exposure was last found in
+  bool adapts_ = false;     ///< an exposure is being found for another environment of the scene shown
+  SharedScene scene_;       ///< null: none is open
   bool of_points_ = false;  ///< document_ is that of points, which are shown until their scene is made
   Document before_;         ///< then: that of scene_
   Viewpoint viewpoint_ = Viewpoint::automatic;  ///< that look_from took last

@@ -7,6 +7,7 @@
 #include "app/library/camera_file.h"
 #include "app/library/picture/reproduce.h"
 #include "app/library/request/command_line.h"
+#include "app/library/shot/resolve.h"
 #include "app/view/model/attempt.h"
 #include "app/view/model/document_request.h"
 #include "app/view/viewer.h"
@@ -46,8 +47,10 @@ void Viewer::open(Request request) {
   if (scene_ && is_of_scene(document_, request)) {
     request.view.width = std::max(picture_px().x, 1U);
     request.view.height = std::max(picture_px().y, 1U);
+    const Finds finds{resolve(request, *scene_, document_.loaded->facts).exposes, !request.look.lights};
     document_ = shown_as(*scene_, document_, request);
-    renderer_.open(nullptr, document_, picture_px(), {.light_at_camera = !request.look.lights});
+    lit_by_ = document_.request.look.environment;
+    renderer_.open(nullptr, document_, picture_px(), finds);
   } else {
     load(request);
   }
@@ -87,7 +90,7 @@ void Viewer::show(OpenedScene opened) {
     document_ = std::move(before_);
     of_points_ = false;
   }
-  const Finds finds{!asked_exposure_ev_ && !opened.scene->stations.empty(),
+  const Finds finds{!asked_exposure_ev_ && opened.document.loaded->exposes,
                     !opened.document.loaded->asked.look.lights};
   const bool kept = exposure_of(document_) != found_exposure_ev_;
   opened.document.request.look.exposure_ev = asked_exposure_ev_.value_or(kept ? exposure_of(document_) : 0.0);
@@ -102,6 +105,7 @@ void Viewer::show(OpenedScene opened) {
       asked->settings.samples = document_.request.settings.samples;
     }
   }
+  lit_by_ = document_.request.look.environment;
   scene_ = std::move(opened.scene);
   const SceneFiles& files = document_.loaded->asked.source.inputs;
   remember([&files](UserState& state) { remember_files(state, files); });

@@ -94,14 +94,18 @@ std::vector<SceneLight> default_lights(const Scene& scene, const Camera& camera)
   return {key};
 }
 
-std::vector<SceneLight> exposed_lights(const Scene& scene) {
-  std::vector<SceneLight> lights = scene.lights;
-  const glm::dvec3 sum = irradiance_of(lights, bounds_center(scene));
-  const double irradiance = std::max({sum.x, sum.y, sum.z});
-  if (!std::isfinite(irradiance) || irradiance <= 0.0) return lights;
-  if (irradiance >= 0.1 * pi && irradiance <= 10.0 * pi) return lights;
-  for (SceneLight& light : lights) light.power *= static_cast<float>(pi / irradiance);
-  return lights;
+double own_light_level(const Scene& scene) {
+  const double nearest = 0.25 * scene.diagonal_world();
+  double sum = 0.0;
+  for (const SceneLight& light : scene.lights) {
+    const double distance = std::max(glm::length(light.position - bounds_center(scene)), nearest);
+    const double area = is_flat(light.kind)
+                            ? flat_area(light.kind) * glm::length(glm::cross(light.edge_u, light.edge_v))
+                            : 1.0;
+    const double divisor = light.kind == LIGHT_DIRECTIONAL ? 1.0 : distance * distance;
+    sum += area / divisor * (double(light.power.x) + double(light.power.y) + double(light.power.z)) / 3.0;
+  }
+  return sum;
 }
 
 std::vector<Light> lights_in_root(const Scene& scene, const std::vector<SceneLight>& lights) {

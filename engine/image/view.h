@@ -156,11 +156,9 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 /// Irradiance of a surface at the centre of the scene's bounding box that faces all lights, the mean of rgb; of rectangles as if
 /// all their light came from their centres.
 [[nodiscard]] double summed_irradiance(const Scene& scene, const std::vector<SceneLight>& lights);
-/// The scene's own lights, ready to show. Lights in physical units (candela, lux up to 1e5) would drown the
-/// picture, and dim ones would leave it black: where the brightest channel of their summed irradiance at the
-/// centre of the scene's bounding box lies outside [pi / 10, 10 pi], all are scaled by one factor that makes
-/// it pi.
-[[nodiscard]] std::vector<SceneLight> exposed_lights(const Scene& scene);
+/// How strong the scene's own lights are together: irradiance of what faces each of them in the middle of the scene's bounding box,
+/// the mean of rgb, whatever their cones and ranges; of lights nearer than a quarter of its diagonal as if they were so far away.
+[[nodiscard]] double own_light_level(const Scene& scene);
 
 /// Everything a frame needs of View, Settings and Scene, in root space, computed in float64. Tile and sample
 /// range cover the whole picture; `environment` and `irradiance` are left zero (the tracer fills them from

@@ -17,8 +17,9 @@
 /// From this bounce on paths end by chance, as often as their light is weak.
 const uint ROULETTE_BOUNCE = 3u;
 const float CLAY_ALBEDO = 0.8f;
-/// LOOK_SCAN: of a colour's brightness, what comes from the sky at points that nothing is near.
-const float SCAN_SKY = 0.75f;
+/// LOOK_SCAN: of a colour's brightness, what comes from the sky at points that nothing is near. Level ground and walls that face the
+/// viewer get the rest from the key light, whose cosine is 0.71 there and 0.58: its irradiance is 1 (app/library/shot/lights.cpp).
+const float SCAN_SKY = 0.795f;
 
 /// What scatters light at a hit, seen at this cosine. `eta` as Bsdf has it.
 Bsdf bsdf_at(Hit hit, Material material, float eta, float cosine) {

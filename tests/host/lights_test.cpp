@@ -64,25 +64,27 @@ TEST(DefaultLights, SurviveAViewFromAbove) {
   EXPECT_NEAR(glm::length(default_lights(box_scene(), camera)[0].position), 1.0, 1e-12);
 }
 
-TEST(ExposedLights, PhysicalUnitsComeDownToPi) {
+TEST(OwnLights, AreAsStrongTogetherAsTheirIrradianceInTheMiddle) {
   Scene scene = box_scene();
   SceneLight sun, lamp;
-  sun.power = glm::vec3(50000.0F);
+  sun.power = glm::vec3(5.0F);
   lamp.kind = LIGHT_POINT;
-  lamp.position = {0.0, 2.0, 0.0};
-  lamp.power = glm::vec3(200000.0F, 0.0F, 0.0F);
+  lamp.position = {0.0, 20.0, 0.0};
+  lamp.power = glm::vec3(1200.0F, 0.0F, 0.0F);
+  lamp.spot_axis = {1.0, 0.0, 0.0};
+  lamp.spot_outer = 0.1;
+  lamp.range = 3.0;
   scene.lights = {sun, lamp};
-  const auto lights = exposed_lights(scene);
-  EXPECT_NEAR(lights[0].power.x + lights[1].power.x / 4.0F, std::numbers::pi, 1e-5);
-  EXPECT_NEAR(lights[1].power.x / lights[0].power.x, 4.0, 1e-5);
-}
-
-TEST(ExposedLights, OrdinaryOnesAreLeftAlone) {
-  Scene scene = box_scene();
-  scene.lights = {SceneLight{}};
-  EXPECT_EQ(exposed_lights(scene)[0].power, glm::vec3(1.0F));
-  scene.lights[0].power = glm::vec3(0.0F);
-  EXPECT_EQ(exposed_lights(scene)[0].power, glm::vec3(0.0F));
+  const glm::dvec3 middle = 0.5 * (scene.bounds_min_world + scene.bounds_max_world);
+  const double distance = glm::length(lamp.position - middle);
+  EXPECT_NEAR(own_light_level(scene), 5.0 + 400.0 / (distance * distance), 1e-9);
+  scene.lights = {lamp};
+  scene.lights[0].position = middle;
+  const double quarter = 0.25 * scene.diagonal_world();
+  EXPECT_NEAR(own_light_level(scene), 400.0 / (quarter * quarter), 1e-9)
+      << "a lamp is not taken to be nearer";
+  for (SceneLight& light : scene.lights) light.power *= 1e4F;
+  EXPECT_NEAR(own_light_level(scene), 4e6 / (quarter * quarter), 1e-3);
 }
 
 }  // namespace

@@ -195,7 +195,7 @@ TEST_F(Plane, RectangleOfLight) {
 /// The floor alone sends no light back to itself: what it gets straight from lights is all there is, however few bounces there are.
 TEST_F(Plane, WithoutBouncesAllDirectLightArrives) {
   bounces_ = 0;
-  SceneLight lamp{LIGHT_POINT, {0.3, 0.7, 0.0}, vec3(3.0F)};
+  SceneLight lamp{LIGHT_POINT, {0.6, 0.7, 0.0}, vec3(3.0F)};
   lamp.size = 0.5;
   SceneLight sun{LIGHT_DIRECTIONAL, {1.0, 1.0, 0.0}, vec3(3.0F)};
   sun.size = 0.5;
@@ -215,7 +215,7 @@ TEST_F(Plane, WithoutBouncesAllDirectLightArrives) {
   expect("one radiance", irradiance({}, 64, constant(2.0F)), 2.0 * pi);
   expect("a picture", irradiance({}, 1024, {64, 32, std::vector<glm::vec3>(64 * 32, vec3(2.0F)), vec3(0.0F)}),
          2.0 * pi);
-  const dvec3 at(0.4, 1.0, 0.0);
+  const dvec3 at(0.6, 0.8, 0.0);
   Scene glowing = scene_of({floor(), {ball_at(at, 0.4, 5000), grey(0.0F)}});
   glowing.materials.back().emission = vec3(4.0F);
   show(glowing, constant(0.0F), {});

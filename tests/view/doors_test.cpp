@@ -145,6 +145,8 @@ TEST_F(Doors, MakeOnePictureOfARequest) {
   expect_same("cube.obj", small + "--mesh-points=2000 --material=glass --environment=sky:30,120", ".png");
   expect_same("cube.obj", small + "--mesh-points=2000 --eye=0.5,0.5,0.9 --target=0.5,0.5,0",
               ".png");  // a room
+  expect_same("cube.obj",
+              small + "--mesh-points=2000 --eye=0.5,0.5,0.9 --target=0.5,0.5,0 --environment=white", ".exr");
   expect_same("cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1 --look=paper", ".png");
   expect_same("cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1", ".png");
   expect_same("cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9",
@@ -209,8 +211,9 @@ class ViewerDoor : public Doors {
     Request save = asked;
     if (change) change(document, save);
     if (!asked.look.lights)
-      if (const auto light = live.light_at_camera(document)) show_light_at_camera(*light, document);
-    if (document.loaded->is_scan && !asked.look.exposure_ev)
+      if (const auto light = live.light_at_camera(document, {asked.view.width, asked.view.height}))
+        show_light_at_camera(*light, document);
+    if (document.loaded->exposes)
       document.request.look.exposure_ev = live.exposure_ev(document, {asked.view.width, asked.view.height});
     const SaveJob job = save_job(document, save);
     command = command_line(job.request);
@@ -241,6 +244,7 @@ TEST_F(ViewerDoor, SavesTheProgramsPicture) {
            {"brass.gltf", small + "--mesh-points=500"},
            {"room.pcd", small + "--keep-noise --view=dollhouse"},
            {"cube.obj", mesh + "--eye=0.5,0.5,0.9 --target=0.5,0.5,0"},
+           {"cube.obj", mesh + "--eye=0.5,0.5,0.9 --target=0.5,0.5,0 --environment=white", ".exr"},
            {"cube.obj", small + "--mesh-points=2000"},
            {"cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9"},
            {"cube.obj", small + "--mesh-points=2000 --area-light=0,3,3,0,0,0,1,1"},

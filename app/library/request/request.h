@@ -58,7 +58,7 @@ struct Request {
     AttributeOptions attributes;                      ///< what is shown of the points' attributes
     std::optional<glm::dvec3> up;                     ///< world; of the scene, its environment and the camera
     std::optional<Tone> tone;                         ///< unset: as resolve_tone has it
-    std::optional<double> exposure_ev;                ///< stops; unset = automatic for scans, else 0
+    std::optional<double> exposure_ev;                ///< stops; unset: as Shot::exposes has it
     bool exposure_auto = false;                       ///< unset = automatic for all
 
     bool operator==(const Look&) const = default;

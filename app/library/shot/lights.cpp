@@ -21,10 +21,11 @@ glm::vec3 default_power(const Scene& scene, const SceneLight& light) {
   return glm::vec3(static_cast<float>(std::numbers::pi * squared_distance));
 }
 
-/// The key light for LOOK_SCAN, whose sky gives most of the light: softer and weaker.
+/// The key light for LOOK_SCAN, whose sky gives most of the light: softer and weaker, and white, as the light of the place is in the
+/// points' colours. What is level or faces the viewer gets 1 of both, within 0.025 (SCAN_SKY of transport.glsl).
 SceneLight scan_light(SceneLight key) {
   key.size = 0.12;
-  key.power *= 0.5F;
+  key.power = glm::vec3(1.0F);
   return key;
 }
 
@@ -54,7 +55,7 @@ SceneLight resolved(const Scene& scene, const glm::dvec3& up, const LightRequest
 
 /// The lights of a scene that nothing is said of: its own, else the key light of the look, none where an environment is named.
 std::vector<SceneLight> own_lights(const Scene& scene, const Request& request, const Camera& camera) {
-  if (!scene.lights.empty()) return exposed_lights(scene);
+  if (!scene.lights.empty()) return scene.lights;
   if (!request.look.environment.empty() || !scene.environment_path.empty()) return {};
   std::vector<SceneLight> lights = default_lights(scene, camera);
   if (resolve_look(scene, request) == LOOK_SCAN) lights.front() = scan_light(lights.front());

@@ -33,47 +33,8 @@ std::vector<RayQuery> rays_around(const Scene& scene, const glm::dvec3& eye) {
   return rays;
 }
 
-/// A light at the camera where neither the environment nor the lights that scenes have by default reach: where next to none of
-/// the directions from the eye lead out of the scene. As bright as makes irradiance pi at the median distance of what the eye
-/// sees around it. Nothing for looks that do not trace paths, eyes outside the scene's bounds, orthographic cameras, and scenes
-/// that have lights or objects that send out light.
-std::optional<SceneLight> headlight(SceneOnDevice& shown, const Camera& camera, const Settings& settings) {
-  const Scene& scene = shown.scene();
-  const bool within = glm::all(glm::greaterThan(camera.eye, scene.bounds_min_world)) &&
-                      glm::all(glm::lessThan(camera.eye, scene.bounds_max_world));
-  if (!within || camera.ortho_height > 0.0 || !look_style(settings.look).paths || !scene.lights.empty() ||
-      sends_out_light(shown.look().materials))
-    return {};
-  std::vector<double> distances;
-  for (const RayHit& hit : shown.tracer().intersect(shown.look(), rays_around(scene, camera.eye), settings))
-    if (hit.object != NO_OBJECT) distances.push_back(double{hit.t} * scene.root.unit_world);
-  if (distances.size() + MOST_OUT < RAYS) return {};
-  const double usual = value_at(distances, 0.5);
-  SceneLight light;
-  light.kind = LIGHT_POINT;
-  light.position = camera.eye;
-  light.power = glm::vec3(static_cast<float>(std::numbers::pi * usual * usual));
-  return light;
-}
-
-}  // namespace
-
-std::optional<SceneLight> light_at_camera(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
-  return shot.request.look.lights ? std::nullopt : headlight(shown, camera, shot.settings);
-}
-
-LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
-  LitLook lit{shown.look()};
-  lit.look.lights = lights_of_look(shot.settings.look, resolve_lights(shown.scene(), shot.request, camera));
-  if (const auto at_eye = light_at_camera(shot, shown, camera)) {
-    lit.look.lights = {*at_eye};
-    lit.notes.emplace_back("no light enters where the camera is, one is put there; --light says others");
-  }
-  for (std::string& note : missing_light(lit.look, shot.settings)) lit.notes.push_back(std::move(note));
-  return lit;
-}
-
-double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
+/// What automatic_exposure_ev gives for a small picture in this look, at most 160 pixels wide and high.
+double look_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera, const Look& look) {
   constexpr std::uint32_t LONGEST = 160, SAMPLES = 4;
   const std::uint32_t longest = std::max(shot.view.width, shot.view.height);
   const auto scaled = [&](std::uint32_t side) {
@@ -84,9 +45,76 @@ double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera&
   settings.samples = SAMPLES;
   settings.sample_offset = 0;
   settings.aov = settings.estimate_error = settings.counters = false;
+  return automatic_exposure_ev(shown.tracer().render(look, view, settings));
+}
+
+/// Whether a scene may be dark inside: no light was asked for or is its own.
+bool has_default_light(const Shot& shot, const SceneOnDevice& shown) {
+  const Scene& scene = shown.scene();
+  const Request::Look& asked = shot.request.look;
+  return !asked.lights && asked.environment.empty() && scene.environment_path.empty() &&
+         scene.lights.empty() && !sends_out_light(shown.look().materials);
+}
+
+/// The median distance, world units, of what the eye sees around it where next to none of the directions from it lead out of the
+/// scene; else nothing.
+std::optional<double> room_around(SceneOnDevice& shown, const Camera& camera, const Settings& settings) {
+  const Scene& scene = shown.scene();
+  const bool within = glm::all(glm::greaterThan(camera.eye, scene.bounds_min_world)) &&
+                      glm::all(glm::lessThan(camera.eye, scene.bounds_max_world));
+  if (!within) return {};
+  std::vector<double> distances;
+  for (const RayHit& hit : shown.tracer().intersect(shown.look(), rays_around(scene, camera.eye), settings))
+    if (hit.object != NO_OBJECT) distances.push_back(double{hit.t} * scene.root.unit_world);
+  if (distances.size() + MOST_OUT < RAYS) return {};
+  return value_at(distances, 0.5);
+}
+
+/// A light at the camera in a room that the default light hardly enters: the first samples of a picture in `look` find less than a
+/// quarter of the light that one needs. As bright as makes irradiance pi at the median distance of what the eye sees around it.
+/// Nothing for looks that do not trace paths and for orthographic cameras.
+std::optional<SceneLight> headlight(const Shot& shot, SceneOnDevice& shown, const Camera& camera,
+                                    const Look& look) {
+  constexpr double DARK_STOPS = 2.0;
+  if (camera.ortho_height > 0.0 || !look_style(shot.settings.look).paths || !has_default_light(shot, shown))
+    return {};
+  const std::optional<double> usual = room_around(shown, camera, shot.settings);
+  if (!usual) return {};
+  const double stops = look_exposure_ev(shot, shown, camera, look);
+  if (stops != 0.0 && stops < DARK_STOPS) return {};  // 0: all is black
+  SceneLight light;
+  light.kind = LIGHT_POINT;
+  light.position = camera.eye;
+  light.power = glm::vec3(static_cast<float>(std::numbers::pi * *usual * *usual));
+  return light;
+}
+
+/// In the lights that the request asks for, or those by default.
+Look plain_look(const Shot& shot, const SceneOnDevice& shown, const Camera& camera) {
+  Look look = shown.look();
+  look.lights = lights_of_look(shot.settings.look, resolve_lights(shown.scene(), shot.request, camera));
+  return look;
+}
+
+}  // namespace
+
+std::optional<SceneLight> light_at_camera(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
+  return headlight(shot, shown, camera, plain_look(shot, shown, camera));
+}
+
+LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
+  LitLook lit{plain_look(shot, shown, camera)};
+  if (const auto at_eye = headlight(shot, shown, camera, lit.look)) {
+    lit.look.lights = {*at_eye};
+    lit.notes.emplace_back("no light enters where the camera is, one is put there; --light says others");
+  }
+  for (std::string& note : missing_light(lit.look, shot.settings)) lit.notes.push_back(std::move(note));
+  return lit;
+}
+
+double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
   constexpr double MOST_STOPS = 60.0, STEPS = 100.0;
-  const double ev =
-      automatic_exposure_ev(shown.tracer().render(lit_look(shot, shown, camera).look, view, settings));
+  const double ev = look_exposure_ev(shot, shown, camera, lit_look(shot, shown, camera).look);
   return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
 }
 

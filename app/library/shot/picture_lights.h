@@ -16,11 +16,12 @@ struct LitLook {
   std::vector<std::string> notes{};  ///< sentences
 };
 
-/// The light at the camera where no light is asked for and none enters.
+/// The light at the camera inside a scene where no light and no environment is asked for, and hardly any of the default light is
+/// found by the first samples of a small picture.
 [[nodiscard]] std::optional<SceneLight> light_at_camera(const Shot& shot, SceneOnDevice& shown,
                                                         const Camera& camera);
 
-/// In the lights that the request asks for, or where it asks for none and none enters, in one at the camera.
+/// In the lights that the request asks for, else the default ones, or that of light_at_camera.
 [[nodiscard]] LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera);
 
 /// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide

@@ -1,8 +1,11 @@
 #include "app/library/shot/resolve.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "app/library/request/consistent.h"
+#include "app/library/request/daylight_text.h"
 #include "app/library/request/fields.h"
 #include "app/library/shot/picture_notes.h"
 #include "app/library/shot/sheet_placement.h"
@@ -66,6 +69,36 @@ void resolve_scan_look(const Scene& scene, const SceneFacts& facts, Shot& shot) 
       request.look.attributes.color_by == "rgb" || is_inside(facts, request) || request.view.sheet;
   request.look.style = all_lit ? LOOK_SCAN : LOOK_LIT;
   note(shot, "look", all_lit ? "scan" : "lit");
+}
+
+bool has_own_lights(const Scene& scene, const Request& request, std::uint32_t look) {
+  return !scene.lights.empty() && !request.look.lights && look_style(look).lights;
+}
+
+/// The studio beside a scene's own lights is as strong for them as it is for lights of irradiance pi: their power is the file's, which
+/// may be any.
+void resolve_environment(const Scene& scene, Shot& shot) {
+  constexpr double MOST_STRENGTH = 1e6;  // of --environment-strength
+  Request& request = shot.request;
+  if (!has_own_lights(scene, request, shot.settings.look) || !request.look.environment.empty() ||
+      !scene.environment_path.empty())
+    return;
+  const double level = own_light_level(scene);
+  if (!(level > 0.0) || !std::isfinite(level)) return;
+  const double strength = request.settings.environment_strength * level / std::numbers::pi;
+  request.look.environment = "studio";
+  request.settings.environment_strength = static_cast<float>(std::min(strength, MOST_STRENGTH));
+  shot.settings.environment_strength = request.settings.environment_strength;
+  note(shot, "environment", request.look.environment);
+  note(shot, "environment-strength", text_of(request.settings.environment_strength));
+}
+
+/// Whether the exposure is the picture's where none is asked for: of scans, whose colours are as bright as their scanner took them, and
+/// in light of physical units.
+bool exposes_by_default(const Scene& scene, const Request& request, std::uint32_t look) {
+  const bool physical = has_own_lights(scene, request, look) ||
+                        (is_daylight(request.look.environment) && look_style(look).lights);
+  return request.look.exposure_auto || !scene.stations.empty() || physical;
 }
 
 void choose_denoise(Shot& shot) {
@@ -170,7 +203,8 @@ bool resolve_denoise(const Request& request, std::uint32_t look) {
 }
 
 Tone resolve_tone(const Request& request) {
-  return request.look.tone.value_or(request.look.style == LOOK_PAPER ? Tone::soft : Tone::neutral);
+  const bool has_no_toe = request.look.style == LOOK_PAPER || request.look.style == LOOK_SCAN;
+  return request.look.tone.value_or(has_no_toe ? Tone::soft : Tone::neutral);
 }
 
 Camera resolve_camera(const Scene& scene, const Request& request, double aspect) {
@@ -231,8 +265,9 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   if (facts.overview && request.settings.reach_world == 0.0)
     request.settings.reach_world = REACH_SHARE * whole.diagonal_world();
   shot.settings.reach_world = request.settings.reach_world;
+  resolve_environment(scene, shot);
   choose_denoise(shot);
-  shot.exposes = !request.look.exposure_ev && (request.look.exposure_auto || !scene.stations.empty());
+  shot.exposes = !request.look.exposure_ev && exposes_by_default(scene, request, shot.settings.look);
   shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;
   shot.notes = ignored_options(asked, shot.settings.look);
   if (facts.kind != SceneKind::none) shot.of = scan_kind_name(facts.kind);

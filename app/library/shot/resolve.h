@@ -11,7 +11,8 @@ namespace splatray {
 ///   outside height, and intensity with it.
 /// - look: scan where points have colours of their own, whose light is in them, and inside rooms, where little light comes; else lit.
 /// - noise: taken out of whole pictures of 8 bits, unless --keep-noise, --despeckle, --error, --time or --reference decide.
-/// - exposure: of scans left to the picture (Shot::exposes).
+/// - environment: beside a scene's own lights the studio, as strong for them as it is for lights of irradiance pi.
+/// - exposure: of scans, of scenes in their own lights and in daylight left to the picture (Shot::exposes).
 /// Throws Error (usage), one sentence, where the scene has not what is asked for or fields do not fit each other.
 [[nodiscard]] Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts);
 
@@ -36,7 +37,8 @@ namespace splatray {
 /// nothing decides that: what is measured or joined keeps it. A picture of the paper's look or of one sample goes through no denoiser.
 [[nodiscard]] bool resolve_denoise(const Request& request, std::uint32_t look);
 
-/// The tone curve: that of --tone, else Tone::soft with --look paper and Tone::neutral otherwise.
+/// The tone curve: that of --tone, else Tone::soft, which leaves darks as they are, with --look paper and scan, Tone::neutral
+/// otherwise.
 [[nodiscard]] Tone resolve_tone(const Request& request);
 
 /// The camera of a picture of this width / height: --eye, else the scene's own, else a view of the whole scene.

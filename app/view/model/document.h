@@ -36,7 +36,8 @@ struct LoadedPart {
   std::vector<std::string> color_sources{};  ///< attributes that colours may show (attributes.h)
   std::vector<Category> classes{}, scans{};  ///< of the points; empty = not known
   std::string crs{};                         ///< Scene::crs
-  bool is_scan = false;                      ///< its exposure is automatic where nothing is said of it
+  bool is_scan = false;
+  bool exposes = false;  ///< Shot::exposes of `asked`
 };
 
 /// A request without what is left open about it for a scene, and what no request has: how one looks at it.

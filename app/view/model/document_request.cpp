@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/library/request/daylight_text.h"
 #include "app/library/shot/lights.h"
 #include "app/library/shot/resolve.h"
 
@@ -67,8 +68,8 @@ Request request_of(const Document& document, std::uint32_t width, std::uint32_t 
   request.look.objects =
       object_changes_between(document.loaded->materials, document.materials, document.loaded->object_names);
   request.look.exposure_ev.reset();
-  if (document.loaded->is_scan || exposure_of(document) != 0.0)
-    request.look.exposure_ev = exposure_of(document);
+  const bool is_automatic = document.loaded->is_scan || is_daylight(request.look.environment);
+  if (is_automatic || exposure_of(document) != 0.0) request.look.exposure_ev = exposure_of(document);
   return request;
 }
 
@@ -107,7 +108,7 @@ Document first_document(const Scene& scene, const SceneFacts& facts, const Reque
   document.loaded = std::make_shared<const LoadedPart>(
       LoadedPart{asked, shown_request(scene, asked, shot), facts, scene.object_names, scene.materials,
                  color_sources(scene), categories_of(scene, COLUMN_CLASS), categories_of(scene, COLUMN_SCAN),
-                 scene.crs, !scene.stations.empty()});
+                 scene.crs, !scene.stations.empty(), shot.exposes});
   return shown_in(scene, document, shot);
 }
 

@@ -40,9 +40,9 @@ void LiveScene::match(const Document& document, ViewMode mode) {
   shown_.show_environment(document.request.look.environment);
 }
 
-std::optional<SceneLight> LiveScene::light_at_camera(const Document& document) {
+std::optional<SceneLight> LiveScene::light_at_camera(const Document& document, glm::uvec2 size_px) {
   match(document, ViewMode::shaded);
-  Request request = request_of(document, 1, 1);
+  Request request = request_of(document, size_px.x, size_px.y);
   request.look.lights.reset();
   return splatray::light_at_camera(resolve(request, *scene_, document.loaded->facts), shown_,
                                    document.camera);

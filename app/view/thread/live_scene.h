@@ -24,8 +24,8 @@ class LiveScene {
   /// that cannot be read, once: the one before stays.
   void match(const Document& document, ViewMode mode);
 
-  /// As picture_lights.h has it, though the document has lights; matches the document.
-  [[nodiscard]] std::optional<SceneLight> light_at_camera(const Document& document);
+  /// As picture_lights.h has it for the document's picture of `size_px` pixels, though the document has lights; matches the document.
+  [[nodiscard]] std::optional<SceneLight> light_at_camera(const Document& document, glm::uvec2 size_px);
   /// The exposure that suits the document's picture of `size_px` pixels, stops; matches the document.
   [[nodiscard]] double exposure_ev(const Document& document, glm::uvec2 size_px);
 

@@ -157,12 +157,12 @@ void RenderThread::show_points(bool others, glm::uvec2 window_px) {
 /// Reports the light and the exposure that suit the scene opened.
 void RenderThread::find() {
   const Finds finds = std::exchange(finds_, {});
+  const glm::uvec2 size_px = glm::max(progressive_.window_px(), glm::uvec2(1));
   const std::optional<SceneLight> light =
-      finds.light_at_camera ? live_.light_at_camera(shown_) : std::nullopt;
+      finds.light_at_camera ? live_.light_at_camera(shown_, size_px) : std::nullopt;
   if (light) show_light_at_camera(*light, shown_);
   std::optional<double> exposure_ev;
-  if (finds.exposure)
-    exposure_ev = live_.exposure_ev(shown_, glm::max(progressive_.window_px(), glm::uvec2(1)));
+  if (finds.exposure) exposure_ev = live_.exposure_ev(shown_, size_px);
   deliver([&](RenderNews& news) {
     news.light_at_camera = light;
     news.exposure_ev = exposure_ev;

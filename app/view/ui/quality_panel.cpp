@@ -11,7 +11,7 @@ namespace splatray {
 namespace {
 
 constexpr std::uint32_t LEAST_SAMPLES = 1, MOST_SAMPLES = 4096, LEAST_BOUNCES = 0, MOST_BOUNCES = 64;
-constexpr double LEAST_EXPOSURE_EV = -10.0, MOST_EXPOSURE_EV = 10.0;
+constexpr double LEAST_EXPOSURE_EV = -20.0, MOST_EXPOSURE_EV = 20.0;
 
 constexpr std::array ENVIRONMENTS = {"studio", "white", "black", "sky:40,135"};
 

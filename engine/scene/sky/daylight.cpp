@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/sky/hosek_wilkie.h"
+
 namespace splatray {
 namespace {
 
@@ -13,81 +15,95 @@ using std::numbers::pi;
 constexpr std::uint32_t WIDTH = 1024, HEIGHT = 512;
 constexpr double SUN_RADIUS = 0.2666 * pi / 180.0;
 constexpr double GROUND_ALBEDO = 0.2;
-/// Illuminance of the sun outside the atmosphere, kilolux.
-constexpr double SUN_KILOLUX = 133.3;
+/// A unit of the model's XYZ, which is 683 lm, in W.
+constexpr double WATTS = 683.0 / DAYLIGHT_LUMENS_PER_WATT;
 
-double luminance(const glm::dvec3& color) { return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double to_radians(double degrees) { return degrees * pi / 180.0; }
 
-/// F of Perez: how the sky's luminance or chromaticity goes with the angle from the zenith and from the sun.
-struct Perez {
-  double a, b, c, d, e;
+glm::dvec3 srgb_of(const glm::dvec3& xyz) {
+  const glm::dmat3 to_srgb({3.2404542, -0.9692660, 0.0556434}, {-1.5371385, 1.8760108, -0.2040259},
+                           {-0.4985314, 0.0415560, 1.0572252});
+  return glm::max(to_srgb * xyz, glm::dvec3(0.0));
+}
 
-  [[nodiscard]] double operator()(double cos_zenith, double sun_angle) const {
-    const double cosine = std::cos(sun_angle);
-    return (1.0 + a * std::exp(b / std::max(cos_zenith, 0.01))) *
-           (1.0 + c * std::exp(d * sun_angle) + e * cosine * cosine);
-  }
+/// Where a number lies between two whole ones: the lower, and how far from it.
+struct Between {
+  std::size_t low;
+  double share;
 };
+/// Of 0 .. count - 1.
+Between between(double at, std::size_t count) {
+  const double low = std::clamp(std::floor(at), 0.0, double(count - 2));
+  return {static_cast<std::size_t>(low), std::clamp(at - low, 0.0, 1.0)};
+}
 
-/// The sky's light in CIE xyY, kilocandela per square metre.
+Between turbidity_between(const Daylight& day) {
+  return between(day.turbidity - 2.0, hosek_wilkie::TURBIDITIES);
+}
+
+/// The tables' parameter of the sun's elevation: even steps are finer near the horizon.
+double elevation_root(const Daylight& day) { return std::cbrt(day.sun_elevation_deg / 90.0); }
+
+/// The sky's radiance in CIE XYZ: eq. 8 of Hosek and Wilkie 2012, whose parameters follow a Bezier curve of degree 5 over the cube root
+/// of the sun's elevation and a straight line between whole turbidities.
 class Sky {
  public:
-  explicit Sky(const Daylight& day) : sun_zenith_(0.5 * pi - day.sun_elevation_deg * pi / 180.0) {
-    const double t = day.turbidity;
-    perez_ = {{{0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
-                -0.0670 * t + 0.3703},
-               {-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
-                -0.0033 * t + 0.0452},
-               {-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
-                -0.0109 * t + 0.0529}}};
-    const double s = sun_zenith_, chi = (4.0 / 9.0 - t / 120.0) * (pi - 2.0 * s);
-    const glm::dvec4 powers(s * s * s, s * s, s, 1.0);
-    const auto chromaticity = [&](const glm::dvec4& squared, const glm::dvec4& linear,
-                                  const glm::dvec4& constant) {
-      return t * t * glm::dot(squared, powers) + t * glm::dot(linear, powers) + glm::dot(constant, powers);
-    };
-    zenith_ = {(4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192,
-               chromaticity({0.00166, -0.00375, 0.00209, 0.0}, {-0.02903, 0.06377, -0.03202, 0.00394},
-                            {0.11693, -0.21196, 0.06052, 0.25886}),
-               chromaticity({0.00275, -0.00610, 0.00317, 0.0}, {-0.04214, 0.08970, -0.04153, 0.00516},
-                            {0.15346, -0.26756, 0.06670, 0.26688})};
+  explicit Sky(const Daylight& day) {
+    using namespace hosek_wilkie;
+    const double t = elevation_root(day);
+    constexpr std::array<double, CONTROLS> BINOMIAL = {1.0, 5.0, 10.0, 10.0, 5.0, 1.0};
+    const auto [low, share] = turbidity_between(day);
+    for (std::size_t channel = 0; channel < CHANNELS; ++channel)
+      for (const std::size_t step : {std::size_t{0}, std::size_t{1}})
+        for (std::size_t control = 0; control < CONTROLS; ++control) {
+          const double weight = (step == 0 ? 1.0 - share : share) * BINOMIAL[control] *
+                                std::pow(1.0 - t, double(CONTROLS - 1 - control)) *
+                                std::pow(t, double(control));
+          const std::size_t at = (channel * TURBIDITIES + low + step) * CONTROLS + control;
+          mean_[channel] += weight * double(SKY_RADIANCE[at]);
+          for (std::size_t i = 0; i < PARAMETERS; ++i)
+            parameters_[channel][i] += weight * double(SKY_PARAMETERS[at * PARAMETERS + i]);
+        }
   }
 
-  /// Linear sRGB.
+  /// Linear sRGB, W/m2/sr; above the horizon.
   [[nodiscard]] glm::dvec3 radiance(double cos_zenith, double sun_angle) const {
-    std::array<double, 3> value{};
-    for (std::size_t i = 0; i < 3; ++i)
-      value[i] = zenith_[i] * perez_[i](cos_zenith, sun_angle) / perez_[i](1.0, sun_zenith_);
-    const auto [light, x, y] = value;
-    const glm::dvec3 xyz(x / y * light, light, (1.0 - x - y) / y * light);
-    const glm::dmat3 to_srgb({3.2404542, -0.9692660, 0.0556434}, {-1.5371385, 1.8760108, -0.2040259},
-                             {-0.4985314, 0.0415560, 1.0572252});
-    return glm::max(to_srgb * xyz, glm::dvec3(0.0));
+    const double cosine = std::cos(sun_angle);
+    glm::dvec3 xyz;
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto& [a, b, c, d, e, f, g, i, h] = parameters_[static_cast<std::size_t>(channel)];
+      const double glow = (1.0 + cosine * cosine) / std::pow(1.0 + h * h - 2.0 * h * cosine, 1.5);
+      xyz[channel] = mean_[static_cast<std::size_t>(channel)] *
+                     (1.0 + a * std::exp(b / (cos_zenith + 0.01))) *
+                     (c + d * std::exp(e * sun_angle) + f * cosine * cosine + g * glow +
+                      i * std::sqrt(std::max(cos_zenith, 0.0)));
+    }
+    return WATTS * srgb_of(xyz);
   }
 
  private:
-  double sun_zenith_;
-  std::array<Perez, 3> perez_{};
-  std::array<double, 3> zenith_{};
+  std::array<std::array<double, hosek_wilkie::PARAMETERS>, 3> parameters_{};
+  std::array<double, 3> mean_{};
 };
 
-/// The sun's irradiance across its direction, linear sRGB, kilolux: what Rayleigh scattering, aerosol and ozone leave of it.
+/// The sun's irradiance across its direction, linear sRGB, W/m2.
 glm::dvec3 sun_irradiance(const Daylight& day) {
-  const double zenith_deg = 90.0 - day.sun_elevation_deg;
-  const double mass =
-      1.0 / (std::cos(zenith_deg * pi / 180.0) + 0.15 * std::pow(93.885 - zenith_deg, -1.253));
-  const double beta = 0.04608365822050 * day.turbidity - 0.04586025928522;
-  constexpr std::array WAVELENGTH = {0.610, 0.550, 0.465}, OZONE = {0.122, 0.085, 0.009};
-  /// Sunlight outside the atmosphere over that of D65.
-  constexpr std::array SUN = {1.10, 1.0, 1.06};
-  glm::dvec3 light;
-  for (int i = 0; i < 3; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const double rayleigh = 0.008735 * std::pow(WAVELENGTH[at], -4.08);
-    const double aerosol = beta * std::pow(WAVELENGTH[at], -1.3);
-    light[i] = SUN[at] * std::exp(-mass * (rayleigh + aerosol + 0.35 * OZONE[at]));
+  using namespace hosek_wilkie;
+  constexpr double TOP = 700.0;
+  // Kasten and Young 1989, "Revised Optical Air Mass Tables and Approximation Formula".
+  const double mass = 1.0 / (std::sin(to_radians(day.sun_elevation_deg)) +
+                             0.50572 * std::pow(day.sun_elevation_deg + 6.07995, -1.6364));
+  const auto [low, share] = turbidity_between(day);
+  const auto [node, on] = between(elevation_root(day) * double(SUN_NODES - 1), SUN_NODES);
+  glm::dvec3 xyz;
+  for (std::size_t channel = 0; channel < CHANNELS; ++channel) {
+    const auto light = [&](std::size_t turbidity) {
+      const std::size_t at = (channel * TURBIDITIES + turbidity) * SUN_NODES + node;
+      return TOP * std::exp(-mass * std::lerp(double(SUN_DEPTH[at]), double(SUN_DEPTH[at + 1]), on));
+    };
+    xyz[static_cast<int>(channel)] = std::lerp(light(low), light(low + 1), share);
   }
-  return light * (SUN_KILOLUX / luminance({SUN[0], SUN[1], SUN[2]}));
+  return srgb_of(xyz);
 }
 
 /// Texels that see the sun, by the share of it in each: those that lie about its middle.
@@ -133,7 +149,7 @@ glm::dvec3 level_irradiance(const std::vector<glm::dvec3>& texels) {
 
 Environment daylight_environment(const Daylight& daylight) {
   const Sky sky(daylight);
-  const double elevation = daylight.sun_elevation_deg * pi / 180.0;
+  const double elevation = to_radians(daylight.sun_elevation_deg);
   const glm::dvec3 to_sun(
       environment_direction(0.5 + daylight.sun_azimuth_deg / 360.0, 0.5 - elevation / pi));
   std::vector<glm::dvec3> texels(std::size_t{WIDTH} * HEIGHT);
@@ -144,13 +160,11 @@ Environment daylight_environment(const Daylight& daylight) {
           sky.radiance(dir.y, std::acos(std::clamp(glm::dot(dir, to_sun), -1.0, 1.0)));
     }
   add_sun(to_sun, sun_irradiance(daylight), texels);
-  const glm::dvec3 irradiance = level_irradiance(texels);
-  const double factor = pi / luminance(irradiance);
-  const glm::dvec3 ground = irradiance * (GROUND_ALBEDO / pi);
+  const glm::dvec3 ground = level_irradiance(texels) * (GROUND_ALBEDO / pi);
   std::fill(texels.begin() + std::ptrdiff_t(texels.size() / 2), texels.end(), ground);
   Environment environment{WIDTH, HEIGHT, {}, glm::vec3(0.0F)};
   environment.texels.reserve(texels.size());
-  for (const glm::dvec3& texel : texels) environment.texels.emplace_back(factor * texel);
+  for (const glm::dvec3& texel : texels) environment.texels.emplace_back(texel);
   return environment;
 }
 

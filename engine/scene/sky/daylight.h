@@ -13,9 +13,13 @@ struct Daylight {
   double turbidity = 3.0;
 };
 
-/// 1024 x 512 texels of the sky's radiance, the sun among them, over a grey ground that reflects a fifth of their light:
-/// Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight", appendix A.2 (sky), A.1 (sunlight at 610, 550 and
-/// 465 nm). As bright as makes the irradiance of a level surface pi, in luminance: white ground then sends out 1.
+/// Lumens of a watt of daylight's radiances: that of light which is alike at all visible wavelengths (Ward 1994, "The RADIANCE
+/// Lighting Simulation and Rendering System"). Luminance, cd/m2, is 179 times 0.2126 r + 0.7152 g + 0.0722 b.
+inline constexpr double DAYLIGHT_LUMENS_PER_WATT = 179.0;
+
+/// 1024 x 512 texels of the sky's radiance, W/m2/sr, linear sRGB, the sun among them, over a grey ground that reflects a fifth of
+/// their light. The sky: Hosek and Wilkie 2012, "An Analytic Model for Full Spectral Sky-Dome Radiance", over black ground, in CIE
+/// XYZ; the sun's disc: Hosek and Wilkie 2013, "Adding a Solar Radiance Function to the Hosek Skylight Model".
 [[nodiscard]] Environment daylight_environment(const Daylight& daylight);
 
 }  // namespace splatray

@@ -93,7 +93,9 @@ void choose_light(Scene& scene, const Camera& camera, const std::filesystem::pat
   write_environment(named ? read_environment(scene.environment_path) : studio_environment(),
                     folder / "environment.bin");
   if (!scene.lights.empty()) {
-    scene.lights = exposed_lights(scene);
+    // Programs expose the picture; here the lights are what suits it.
+    const auto factor = static_cast<float>(std::numbers::pi / own_light_level(scene));
+    for (SceneLight& light : scene.lights) light.power *= factor;
   } else if (!named) {
     scene.lights = default_lights(scene, camera);
   }

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <span>
 
+#include "app/library/request/daylight_text.h"
 #include "app/library/request/fields.h"
 #include "engine/base/number_text.h"
 
@@ -111,15 +112,31 @@ Field lights_row() {
 }
 
 Field environment_row() {
-  return with(value_row(
-                  "environment", LIGHT, "FILE|NAME",
-                  "an HDR or EXR file (latitude-longitude), white, black, studio, "
-                  "sky:ELEVATION,AZIMUTH[,TURBIDITY] (daylight: where the sun stands, degrees above the "
-                  "horizon and clockwise from north, and how hazy it is, 2 to 10, default 3) or a radiance "
-                  "r,g,b; default: the scene's, else studio with a key light over the viewer's left shoulder",
-                  [](Request& request, const std::string& text) { request.look.environment = text; },
-                  [](const Request& request) { return request.look.environment; }),
-              {.old_names = {"env"}});
+  return with(
+      value_row(
+          "environment", LIGHT, "FILE|NAME",
+          "an HDR or EXR file (latitude-longitude), white, black, studio, "
+          "sky:ELEVATION,AZIMUTH[,TURBIDITY] (daylight in W/m2: where the sun stands, degrees above the "
+          "horizon and clockwise from north, and how hazy it is, 2 to 10, default 3), "
+          "sky:DATE,LATITUDE,LONGITUDE[,TURBIDITY] (as --sun-at has it) or a radiance "
+          "r,g,b; default: the scene's, else studio with a key light over the viewer's left shoulder",
+          [](Request& request, const std::string& text) { request.look.environment = text; },
+          [](const Request& request) { return request.look.environment; }),
+      {.old_names = {"env"}});
+}
+
+/// Another way to say an environment, which is what it becomes.
+Field sun_at_row() {
+  return value_row("sun-at", LIGHT, "DATE,LATITUDE,LONGITUDE[,TURBIDITY]",
+                   "the daylight of a place at a time as environment, such as "
+                   "2026-06-21T15:00+02:00,48.1,11.6: date and time with its zone, Z or +HH:MM, of 1950 to "
+                   "2050, degrees north and east, and how hazy it is, 2 to 10, default 3; north is the "
+                   "world's +y, of scenes whose up is y -z",
+                   [](Request& request, const std::string& text) {
+                     static_cast<void>(read_daylight(text));
+                     request.look.environment = DAYLIGHT_NAME + text;
+                   },
+                   {});
 }
 
 Field background_row() {
@@ -166,6 +183,7 @@ std::vector<Field> light_fields() {
                 "R,G,B: its radiance, default irradiance pi there; with --look paper a point; repeatable"),
       lights_row().of_looks({LOOK_PAPER, LOOK_LIT, LOOK_CLAY, LOOK_SCAN}),
       needed(environment_row(), "an HDR or EXR, white, studio, sky:ELEVATION,AZIMUTH"),
+      sun_at_row(),
       background_row(),
       with(number_row("environment-strength", LIGHT, MEMBER(settings.environment_strength), 0.0, 1e6,
                       "factor on the environment; default 1"),

@@ -91,14 +91,16 @@ Field tone_row() {
   return choice_row(
       "tone", LOOK, MEMBER(look.tone), tones,
       "how a PNG shows what is brighter than white: neutral (colours stay), agx (like film), soft (each "
-      "channel alone), none (cut off); default auto: soft with --look paper, else neutral");
+      "channel alone), none (cut off); default auto: soft with --look paper and scan, else neutral");
 }
 
 Field exposure_row() {
   return value_row(
       "exposure", LOOK, "EV|auto",
       "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean, less where it "
-      "would be too bright, as measured on a small picture of the same view; default auto for scans, else 0",
+      "would be too bright, as measured on a small picture of the same view; default auto for scans, in "
+      "daylight and in a "
+      "file's own lights, else 0",
       [](Request& request, const std::string& text) {
         request.look.exposure_ev.reset();
         request.look.exposure_auto = text == "auto";
