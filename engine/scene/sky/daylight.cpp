@@ -26,12 +26,11 @@ glm::dvec3 srgb_of(const glm::dvec3& xyz) {
   return glm::max(to_srgb * xyz, glm::dvec3(0.0));
 }
 
-/// Where a number lies between two whole ones: the lower, and how far from it.
+/// Where a number lies between two of 0 .. count - 1: the lower, and how far from it.
 struct Between {
   std::size_t low;
   double share;
 };
-/// Of 0 .. count - 1.
 Between between(double at, std::size_t count) {
   const double low = std::clamp(std::floor(at), 0.0, double(count - 2));
   return {static_cast<std::size_t>(low), std::clamp(at - low, 0.0, 1.0)};

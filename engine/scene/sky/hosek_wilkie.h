@@ -32,11 +32,11 @@ namespace splatray::hosek_wilkie {
 
 inline constexpr std::size_t CHANNELS = 3;     ///< CIE X, Y, Z
 inline constexpr std::size_t TURBIDITIES = 9;  ///< 2, 3 .. 10
-inline constexpr std::size_t CONTROLS =
-    6;  ///< of a Bezier curve over the cube root of the sun's elevation, 90 degrees = 1
+/// Control points of a Bezier curve over the cube root of the sun's elevation, 90 degrees = 1.
+inline constexpr std::size_t CONTROLS = 6;
 inline constexpr std::size_t PARAMETERS = 9;  ///< A .. I of the sky's luminance
-inline constexpr std::size_t SUN_NODES =
-    19;  ///< even in the cube root of the sun's elevation, the first at 0.2 degrees
+/// Places that are even in the cube root of the sun's elevation, the first at 0.2 degrees.
+inline constexpr std::size_t SUN_NODES = 19;
 
 // clang-format off
 /// [channel][turbidity][control][parameter]
