@@ -75,19 +75,19 @@ bool has_own_lights(const Scene& scene, const Request& request, std::uint32_t lo
   return !scene.lights.empty() && !request.look.lights && look_style(look).lights;
 }
 
-/// The studio beside a scene's own lights is as strong for them as it is for lights of irradiance pi: their power is the file's, which
-/// may be any.
+/// The studio beside a scene's own lights is as strong for them as it is for lights of irradiance pi, unless that is asked for: their
+/// power is the file's, which may be any.
 void resolve_environment(const Scene& scene, Shot& shot) {
   constexpr double MOST_STRENGTH = 1e6;  // of --environment-strength
   Request& request = shot.request;
-  if (!has_own_lights(scene, request, shot.settings.look) || !request.look.environment.empty() ||
-      !scene.environment_path.empty())
-    return;
+  const bool open = request.look.environment.empty() && scene.environment_path.empty() &&
+                    request.settings.environment_strength == Settings{}.environment_strength;
   const double level = own_light_level(scene);
-  if (!(level > 0.0) || !std::isfinite(level)) return;
-  const double strength = request.settings.environment_strength * level / std::numbers::pi;
+  if (!open || !has_own_lights(scene, request, shot.settings.look) || !(level > 0.0) || !std::isfinite(level))
+    return;
   request.look.environment = "studio";
-  request.settings.environment_strength = static_cast<float>(std::min(strength, MOST_STRENGTH));
+  request.settings.environment_strength =
+      static_cast<float>(std::min(level / std::numbers::pi, MOST_STRENGTH));
   shot.settings.environment_strength = request.settings.environment_strength;
   note(shot, "environment", request.look.environment);
   note(shot, "environment-strength", text_of(request.settings.environment_strength));
