@@ -70,6 +70,7 @@ class Doors : public CliTest {
     write("cube.obj", cube_obj());
     write("grid.ply", grid_ply(true));
     write("brass.gltf", triangle_gltf());
+    write("lamp.gltf", lamp_gltf(300.0));
   }
 
   /// The file that splatray-render makes of a scene of the folder, and the request that it was given.
@@ -152,6 +153,8 @@ TEST_F(Doors, MakeOnePictureOfARequest) {
   expect_same("cube.obj", small + "--mesh-points=2000 --light=spot:at=0.5,3,0.5,to=0.5,0,0.5,cone=12,range=9",
               ".png");
   expect_same("brass.gltf", small + "--mesh-points=500", ".exr");
+  expect_same("lamp.gltf", small + "--mesh-points=500", ".png");
+  expect_same("cube.obj", small + "--mesh-points=2000 --sun-at=2026-06-21T15:00+02:00,48.1,11.6", ".png");
   expect_same("grid.ply", small + "--despeckle --exposure=auto", ".png");
 }
 
@@ -242,6 +245,8 @@ TEST_F(ViewerDoor, SavesTheProgramsPicture) {
            {"cube.obj", mesh, ".exr"},
            {"cube.obj", mesh + "--material=glass --environment=sky:30,120"},
            {"brass.gltf", small + "--mesh-points=500"},
+           {"lamp.gltf", small + "--mesh-points=500"},
+           {"cube.obj", mesh + "--sun-at=2026-06-21T15:00+02:00,48.1,11.6"},
            {"room.pcd", small + "--keep-noise --view=dollhouse"},
            {"cube.obj", mesh + "--eye=0.5,0.5,0.9 --target=0.5,0.5,0"},
            {"cube.obj", mesh + "--eye=0.5,0.5,0.9 --target=0.5,0.5,0 --environment=white", ".exr"},

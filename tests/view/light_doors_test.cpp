@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "app/library/image_file.h"
-#include "engine/base/number_text.h"
 #include "engine/base/srgb.h"
 #include "tests/cli/child_process.h"
 #include "tests/view/live_documents.h"
@@ -101,26 +100,47 @@ TEST_F(ScanTone, AutomaticExposureIsOneFactorThatIsSaid) {
 
 // --- lights of files -----------------------------------------------------------------------------------------------------
 
-/// A triangle of 1 x 1 under a lamp of its own.
-std::string lamp_gltf(double candela) {
-  return R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,"scenes":[{"nodes":[0,1]}],
-"nodes":[{"mesh":0},{"translation":[0.3,0.3,1.5],"extensions":{"KHR_lights_punctual":{"light":0}}}],
-"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":)" +
-         number_text(candela) + R"(}]}},
-"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
-"materials":[{"doubleSided":true,
-"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.4,0.3,1],"metallicFactor":0,"roughnessFactor":0.8}}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
-"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,
-"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
-}
-
 double median_of(const DisplayImage& picture) {
   std::vector<double> values;
   for (const glm::vec3& pixel : picture.rgb)
     for (int i = 0; i < 3; ++i) values.push_back(255.0 * double(pixel[i]));
   std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
   return values[values.size() / 2];
+}
+
+/// Daylight is some hundred W/m2: unexposed pictures in it would be white.
+TEST_F(DefaultLight, PicturesInDaylightAreExposed) {
+  write("cube.obj", cube_obj());
+  for (const char* sky : {"--environment=sky:2,120", "--environment=sky:60,120,8",
+                          "--sun-at=2026-06-21T15:00+02:00,48.1,11.6"}) {
+    (void)made({file("cube.obj"), "--mesh-points=2000", "--ground", "--resolution=32x24", "--samples=8", sky},
+               "sky.png");
+    const double median = median_of(read_display_image(file("sky.png"), {}));
+    EXPECT_TRUE(median >= 60.0 && median <= 220.0) << sky << ": " << median;
+  }
+  // The sun's height there and then, by another door.
+  const auto seen = [&](const std::string& sky) {
+    (void)made({file("cube.obj"), "--mesh-points=2000", "--resolution=32x24", "--samples=2", sky}, "sky.exr");
+    return radiance("sky.exr");
+  };
+  EXPECT_EQ(seen("--sun-at=2026-06-21T15:00+02:00,48.1,11.6"),
+            seen("--environment=sky:2026-06-21T13:00Z,48.1,11.6,3"));
+}
+
+TEST_F(DefaultLight, DaylightThatIsNoneIsRefused) {
+  write("cube.obj", cube_obj());
+  for (const auto& [asked, words] : std::vector<std::pair<std::string, std::string>>{
+           {"2026-06-21T01:00+02:00,48.1,11.6", "expected a time when the sun is up"},
+           {"2026-02-29T12:00Z,48.1,11.6", "expected a date and time with its zone"},
+           {"2026-06-21T15:00,48.1,11.6", "expected a date and time with its zone"},
+           {"2026-06-21T15:00Z,91,11.6", "expected a latitude from -90 to 90"},
+           {"2026-06-21T15:00Z", "expected ELEVATION,AZIMUTH"},
+           {"2026-06-21T15:00Z,48,11,1", "expected a turbidity from 2 to 10"}})
+    expect_refused(
+        [&] {
+          return run_program({RENDER, file("cube.obj"), "-o", file("x.png"), "--sun-at=" + asked});
+        },
+        2, words);
 }
 
 /// Lights beyond some bounds were scaled to irradiance pi before, in EXRs, too.

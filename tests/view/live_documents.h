@@ -6,6 +6,7 @@
 
 #include "app/view/model/document_request.h"
 #include "app/view/thread/live_scene.h"
+#include "engine/base/number_text.h"
 #include "tests/gpu/small_scene.h"
 
 namespace splatray {
@@ -31,6 +32,20 @@ inline Document disc_document(const Scene& scene) {
   document.bounds_min_world = scene.bounds_min_world;
   document.bounds_max_world = scene.bounds_max_world;
   return document;
+}
+
+/// A triangle of 1 x 1 under a lamp of its own.
+inline std::string lamp_gltf(double candela) {
+  return R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,"scenes":[{"nodes":[0,1]}],
+"nodes":[{"mesh":0},{"translation":[0.3,0.3,1.5],"extensions":{"KHR_lights_punctual":{"light":0}}}],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":)" +
+         number_text(candela) + R"(}]}},
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"doubleSided":true,
+"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.4,0.3,1],"metallicFactor":0,"roughnessFactor":0.8}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,
+"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 }
 
 /// A cube of one material, open or a room around the camera.

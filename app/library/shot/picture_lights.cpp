@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/library/display_image.h"
+#include "app/library/request/daylight_text.h"
 #include "app/library/shot/lights.h"
 #include "app/library/shot/picture_notes.h"
 #include "app/library/user_folders.h"
@@ -112,9 +113,29 @@ LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
   return lit;
 }
 
+namespace {
+
+/// The exposure of light in physical units that lies open: by which white sends out 1 where it faces a scene's own lights, or on level
+/// ground in daylight. Nothing in other light.
+std::optional<double> open_exposure_ev(const Shot& shot, const Look& look, const Scene& scene) {
+  if (!scene.lights.empty() && look.lights == lights_of_look(shot.settings.look, scene.lights))
+    return std::log2(std::numbers::pi / own_light_level(scene));
+  if (!is_daylight(shot.environment) || !look.environment) return {};
+  const auto c = irradiance_coefficients(*look.environment);
+  const glm::dvec3 upwards(c[0] + c[1] - c[6] - c[8]);  // their polynomials at (0, 1, 0)
+  const double bright =
+      (upwards.x + upwards.y + upwards.z) / 3.0 * double(shot.settings.environment_strength);
+  return std::log2(1.0 / bright);
+}
+
+}  // namespace
+
 double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
-  constexpr double MOST_STOPS = 60.0, STEPS = 100.0;
-  const double ev = look_exposure_ev(shot, shown, camera, lit_look(shot, shown, camera).look);
+  constexpr double MOST_STOPS = 60.0, STEPS = 100.0, DARKER = 0.5, BRIGHTER = 1.5;
+  const Look look = lit_look(shot, shown, camera).look;
+  double ev = look_exposure_ev(shot, shown, camera, look);
+  if (const auto open = open_exposure_ev(shot, look, shown.scene()); open && std::isfinite(*open))
+    ev = std::clamp(*open, ev - DARKER, ev + BRIGHTER);
   return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
 }
 

@@ -98,7 +98,9 @@ Field exposure_row() {
   return value_row(
       "exposure", LOOK, "EV|auto",
       "brightness of a PNG in stops, or auto: what is seen becomes middle grey on the mean, less where it "
-      "would be too bright, as measured on a small picture of the same view; default auto for scans, in "
+      "would be too bright, as measured on a small picture of the same view; near that in daylight and a "
+      "file's own lights "
+      "what makes white look white in the open; default auto for scans, in "
       "daylight and in a "
       "file's own lights, else 0",
       [](Request& request, const std::string& text) {
