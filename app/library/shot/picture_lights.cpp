@@ -131,11 +131,11 @@ std::optional<double> open_exposure_ev(const Shot& shot, const Look& look, const
 }  // namespace
 
 double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
-  constexpr double MOST_STOPS = 60.0, STEPS = 100.0, DARKER = 0.5, BRIGHTER = 1.5;
+  constexpr double MOST_STOPS = 60.0, STEPS = 100.0, BRIGHTER = 1.5;
   const Look look = lit_look(shot, shown, camera).look;
   double ev = look_exposure_ev(shot, shown, camera, look);
   if (const auto open = open_exposure_ev(shot, look, shown.scene()); open && std::isfinite(*open))
-    ev = std::clamp(*open, ev - DARKER, ev + BRIGHTER);
+    ev = std::clamp(*open, ev, ev + BRIGHTER);
   return std::clamp(std::round(STEPS * ev) / STEPS, -MOST_STOPS, MOST_STOPS);
 }
 

@@ -25,8 +25,8 @@ struct LitLook {
 [[nodiscard]] LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera);
 
 /// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide
-/// and high; in daylight and in a scene's own lights that by which white sends out 1 in the open, where it lies no more than half a stop
-/// below and 1.5 above. Parts of a picture, and all pictures of a run, have one exposure by it.
+/// and high; in daylight and in a scene's own lights up to 1.5 stops more: that by which white sends out 1 in the open. Parts of a
+/// picture, and all pictures of a run, have one exposure by it.
 [[nodiscard]] double preview_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& camera);
 
 /// Chooses the exposure where that is left to the picture, by the first of the shot's pictures; of a scene that has an overview by that, so
