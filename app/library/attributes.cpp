@@ -11,6 +11,7 @@
 #include "engine/base/number_text.h"
 #include "engine/base/rank.h"
 #include "engine/base/srgb.h"
+#include "engine/image/view.h"
 #include "engine/scene/scene_splat.h"
 
 namespace splatray {
@@ -231,6 +232,21 @@ AttributeColors normal_colors(const Scene& scene) {
   return result;
 }
 
+/// Greys of what is level, faces the plan's top or bottom, and faces its sides, in parts by the squares of the normal's components: they
+/// do not depend on which side is the front, and walls of a room differ at its corners.
+AttributeColors orientation_colors(const Scene& scene) {
+  constexpr double LEVEL = 0.95, FACING_NORTH = 0.8, FACING_EAST = 0.66;  // display values
+  const glm::dmat3 axes = upright_axes(scene.up);
+  AttributeColors result;
+  result.colors.reserve(splat_count(scene));
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    const glm::dvec3 along = glm::transpose(axes) * splat.normal(), part = along * along;
+    const double grey = FACING_EAST * part.x + LEVEL * part.y + FACING_NORTH * part.z;
+    result.colors.push_back(color_of(glm::vec3(static_cast<float>(grey))));
+  });
+  return result;
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -263,7 +279,7 @@ std::vector<std::string> color_sources(const Scene& scene) {
   if (!scene.color_pool.empty()) names.emplace_back("rgb");
   names.emplace_back("plain");
   for (const Column& column : scene.columns) names.push_back(column.name);
-  names.insert(names.end(), {"height", "normal"});
+  names.insert(names.end(), {"height", "normal", "orientation"});
   if (find_column(scene.columns, COLUMN_INTENSITY) != nullptr) names.emplace_back(HEIGHT_AND_INTENSITY);
   if (knows_a_sensor(scene)) names.emplace_back("distance");
   return names;
@@ -279,6 +295,7 @@ AttributeColors color_by(const Scene& scene, const AttributeOptions& options) {
                                      "', expected what the scene's points have: " + joined(sources) +
                                      did_you_mean(options.color_by, sources));
   if (options.color_by == "normal") return normal_colors(scene);
+  if (options.color_by == "orientation") return orientation_colors(scene);
   if (options.color_by == HEIGHT_AND_INTENSITY) return relief_colors(scene, options);
   if (const Column* column = find_column(scene.columns, options.color_by); column && has_categories(*column))
     return category_colors(scene, *column);

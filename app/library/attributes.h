@@ -12,7 +12,8 @@ namespace splatray {
 
 /// What is shown of the attributes of a scene's points.
 struct AttributeOptions {
-  /// rgb, plain (no colours), height, height+intensity (darker where intensity is low), normal, distance, or a column's name; empty = rgb, what the scene has.
+  /// rgb, plain (no colours), height, height+intensity (darker where intensity is low), normal, orientation (greys: level ones light,
+  /// walls darker, two kinds of them), distance, or a column's name; empty = rgb, what the scene has.
   std::string color_by;
   /// Unset = from the 2nd to the 98th of 100 parts of all values.
   std::optional<std::array<double, 2>> color_range;

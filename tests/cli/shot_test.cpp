@@ -167,6 +167,31 @@ TEST(Shot, RoomsLieOpenUnlessAScannerStandsInThem) {
   EXPECT_FALSE(inside.settings.cutaway);
 }
 
+TEST(Shot, DrawingsWithoutColoursAreOnWhitePaper) {
+  const auto drawn = [](Scene scene, Request asked = {}) {
+    asked.view.sheet = SheetRequest{};
+    asked.view.sheet->dpi = 30.0;
+    return shot_of(scene, asked);
+  };
+  EXPECT_EQ(
+      said(drawn(room())),
+      "a room: --color-by orientation --look scan --lights none --ink --tone none --exposure 0.415 --denoise");
+  EXPECT_FALSE(drawn(room()).exposes);
+  EXPECT_EQ(drawn(site()).request.look.attributes.color_by, "height") << "which a map is of";
+  Scene coloured = room();
+  colour(coloured, 0.1F, 0.8F);
+  EXPECT_EQ(drawn(coloured).request.look.attributes.color_by, "rgb");
+  Request asked;
+  asked.look.attributes.color_by = "height";
+  EXPECT_FALSE(drawn(room(), asked).request.look.lights);
+  asked.look.attributes.color_by.clear();
+  asked.look.exposure_ev = 1.5;
+  asked.look.lights.emplace(1);
+  const Shot lit = drawn(room(), asked);
+  EXPECT_EQ(lit.request.look.lights->size(), 1U);
+  EXPECT_EQ(lit.request.look.exposure_ev, 1.5);
+}
+
 TEST(Shot, ColoursThatSaySomethingComeFirst) {
   Scene scene = site();
   std::vector<float> intensity(scene.data_pool.size());

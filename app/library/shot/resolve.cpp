@@ -19,6 +19,10 @@
 namespace splatray {
 namespace {
 
+constexpr const char* ORIENTATION = "orientation";
+/// Stops that make up for what LOOK_SCAN keeps for lights (SCAN_SKY in transport.glsl).
+constexpr double SKY_EXPOSURE_EV = 0.415;
+
 void note(Shot& shot, const std::string& field, const std::string& text) {
   shot.choices.push_back({field, text});
 }
@@ -45,8 +49,12 @@ bool is_inside(const SceneFacts& facts, const Request& request) {
   return facts.kind == SceneKind::room && request.view.viewpoint == Viewpoint::inside;
 }
 
-const char* resolve_colors(const SceneFacts& facts, bool inside) {
+/// Drawings of rooms and objects are on white paper; of sites heights are the content.
+const char* resolve_colors(const SceneFacts& facts, const Request& request) {
+  const bool inside = is_inside(facts, request);
   if (facts.has_colors) return "rgb";
+  if (request.view.sheet && facts.kind != SceneKind::site && facts.kind != SceneKind::sweep)
+    return ORIENTATION;
   const bool land = facts.kind == SceneKind::site || facts.kind == SceneKind::sweep ||
                     (facts.kind == SceneKind::room && !inside);
   if (facts.has_intensity) return land ? "height+intensity" : "intensity";
@@ -56,7 +64,7 @@ const char* resolve_colors(const SceneFacts& facts, bool inside) {
 void resolve_color_by(const SceneFacts& facts, Shot& shot) {
   std::string& color_by = shot.request.look.attributes.color_by;
   if (facts.kind == SceneKind::none || !color_by.empty()) return;
-  color_by = facts.color_by.empty() ? resolve_colors(facts, is_inside(facts, shot.request)) : facts.color_by;
+  color_by = facts.color_by.empty() ? resolve_colors(facts, shot.request) : facts.color_by;
   note(shot, "color-by", color_by);
 }
 
@@ -99,6 +107,29 @@ bool exposes_by_default(const Scene& scene, const Request& request, std::uint32_
   const bool physical = has_own_lights(scene, request, look) ||
                         (is_daylight(request.look.environment) && look_style(look).lights);
   return request.look.exposure_auto || !scene.stations.empty() || physical;
+}
+
+/// Greys by orientation, where nothing darkens them as bright as they are, and lines where surfaces end.
+void resolve_white_paper(Shot& shot) {
+  Request::Look& look = shot.request.look;
+  if (!shot.request.view.sheet || shot.request.view.xray || look.attributes.color_by != ORIENTATION ||
+      look.style != LOOK_SCAN)
+    return;
+  if (!look.lights) {
+    look.lights.emplace();
+    note(shot, "lights", "none");
+  }
+  if (!shot.request.view.ink) {
+    shot.request.view.ink = true;
+    note(shot, "ink", "on");
+  }
+  if (!look.tone) {
+    look.tone = Tone::none;
+    note(shot, "tone", "none");
+  }
+  if (look.exposure_ev || look.exposure_auto) return;
+  look.exposure_ev = SKY_EXPOSURE_EV;
+  note(shot, "exposure", number_text(SKY_EXPOSURE_EV));
 }
 
 void choose_denoise(Shot& shot) {
@@ -246,6 +277,7 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   resolve_view(facts, shot);
   resolve_color_by(facts, shot);
   resolve_scan_look(scene, facts, shot);
+  resolve_white_paper(shot);
   Request& request = shot.request;
   if (request.view.sheet) resolve_sheet(request);
   const Scene& whole = facts.overview ? *facts.overview : scene;

@@ -121,7 +121,8 @@ std::vector<Field> look_fields() {
       needed(look_row(), "lit, clay, ao, scan or paper"),
       needed(text_row("color-by", LOOK, MEMBER(look.attributes.color_by),
                       "colours of points: rgb (their own), plain (none), height (low to high: blue-green, "
-                      "green, ochre, rose), height+intensity (darker where that is low), normal, distance "
+                      "green, ochre, rose), height+intensity (darker where that is low), normal, orientation "
+                      "(greys), distance "
                       "(from the scanner), or an attribute they have, such as intensity, class, return, "
                       "source, scan, kind (surface, line or scatter); default rgb, of scans without colours "
                       "intensity, of sites and rooms height with it",
