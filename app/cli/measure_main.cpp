@@ -9,10 +9,13 @@
 #include "app/library/measure/measure_file.h"
 #include "app/library/picture/measuring.h"
 #include "app/library/picture/series/run_files.h"
+#include "app/library/request/sheet_request.h"
 #include "app/library/shot/scene_source.h"
+#include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/progress.h"
+#include "engine/base/utf8.h"
 #include "engine/file/atomic_file.h"
 #include "engine/file/file_roles.h"
 
@@ -23,6 +26,7 @@ using namespace splatray;
 struct Asked {
   Request request;
   std::vector<GivenMeasure> measures;
+  std::optional<double> unit_metres;
   std::filesystem::path output;
 };
 
@@ -31,31 +35,63 @@ constexpr const char* PLACES =
     "or a "
     "ray X,Y,Z>DX,DY,DZ, of which the first hit counts; several with ; between them; repeatable";
 
+/// Reads a value of an option. Throws Error (usage), one sentence.
+template <typename Read>
+auto read_option(const std::string& name, const std::string& text, const Read& read) {
+  try {
+    return read(text);
+  } catch (const Expected& expected) {
+    throw Error(ExitCode::usage, name + ": found '" + text + "', expected " + expected.what);
+  }
+}
+
 void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
   list.set_group("Measures");
-  const auto add = [&](MeasureKind kind, const std::string& help, const char* value) {
+  const auto add_named = [&](const std::string& name, MeasureKind kind, const std::string& help,
+                             const char* value) {
     const std::string brief = help.substr(0, help.find(';'));
-    const std::string name = std::string("--") + measure_name(kind);
     list.add_repeated(
         name,
         [&measures, kind, name](const std::string& text) {
-          try {
-            measures.push_back(read_measure(kind, text));
-          } catch (const Expected& expected) {
-            throw Error(ExitCode::usage, name + ": found '" + text + "', expected " + expected.what);
-          }
+          measures.push_back(
+              read_option(name, text, [kind](const std::string& t) { return read_measure(kind, t); }));
         },
         help, value);
     list.set_brief(name, brief);
   };
+  const auto add = [&](MeasureKind kind, const std::string& help, const char* value) {
+    add_named(std::string("--") + measure_name(kind), kind, help, value);
+  };
   add(MeasureKind::point, std::string("coordinates of a place") + PLACES, "PLACE");
   add(MeasureKind::distance, "distance along two places and more", "PLACE;PLACE...");
-  add(MeasureKind::height, "height of the second place above the first", "PLACE;PLACE");
+  add(MeasureKind::horizontal, "distance of two places across the up direction", "PLACE;PLACE");
+  add(MeasureKind::vertical, "height of the second place above the first", "PLACE;PLACE");
+  list.set_group("");
+  add_named(std::string("--") + OLD_VERTICAL, MeasureKind::vertical, "", "PLACE;PLACE");
+  list.set_group("Measures");
   add(MeasureKind::angle, "angle at the second of three places", "PLACE;PLACE;PLACE");
   add(MeasureKind::area, "area and perimeter of the polygon of three places and more",
       "PLACE;PLACE;PLACE...");
   add(MeasureKind::sphere, "radius of the sphere through what is within REACH of a place", "PLACE;REACH");
   add(MeasureKind::cylinder, "radius of the cylinder through what is within REACH of a place", "PLACE;REACH");
+  list.add_repeated(
+      "--name",
+      [&measures](const std::string& text) {
+        if (measures.empty())
+          throw Error(ExitCode::usage, "--name: found '" + text +
+                                           "' before any measure, expected it behind the one that it names");
+        measures.back().name = to_utf8(text);
+      },
+      "name of the measure before it, in tables and drawings", "TEXT");
+  list.set_brief("--name", "name of the measure before it");
+}
+
+void add_unit(OptionList& list, std::optional<double>& metres) {
+  list.add_value(
+      "--unit", [&metres](const std::string& text) { metres = read_option("--unit", text, read_unit); },
+      "unit of the file's coordinates where the file does not say: m, cm, mm, ft, us-ft or a number of "
+      "metres",
+      "UNIT");
 }
 
 /// Nothing when help was asked for and printed.
@@ -68,14 +104,15 @@ std::optional<Asked> parse(int argc, char** argv) {
   Asked asked;
   add_fields(list, DOOR_RENDER, "SCENE", given, {FieldGroup::input, FieldGroup::region});
   add_measures(list, asked.measures);
+  add_unit(list, asked.unit_metres);
   list.set_group("Files");
   add_path(list, "-o,--output", asked.output,
            "file to write: .geojson, .dxf or .csv; default: a table on stdout");
   list.set_brief("--output", "file to write: .geojson, .dxf or .csv");
   list.set_examples({{"splatray-measure room.e57 --distance '0,0,0>1,0,0;0,0,0>-1,0,0'",
                       "from wall to wall, along rays from the scanner"},
-                     {"splatray-measure room.e57 --height '1,2,0;1,2,2.5' --point 1,2,0",
-                      "a height between two places, and one of them"},
+                     {"splatray-measure room.e57 --vertical '1,2,0;1,2,2.5' --name 'door' --point 1,2,0",
+                      "a height between two places, which gets a name, and one of them"},
                      {"splatray-measure pipes.laz --cylinder '4.1,0.3,1.2;0.15' -o pipe.dxf",
                       "a pipe's radius, for a drawing"}});
   if (!list.parse(argc, argv)) return {};
@@ -110,9 +147,12 @@ int run(int argc, char** argv) {
   std::vector<Measure> measures;
   for (const GivenMeasure& given : asked->measures)
     measures.push_back(take_measure(loaded.scene, region, given, &shown));
-  const MeasureFrame frame{loaded.scene.up, loaded.scene.crs};
+  const MeasureFrame frame{loaded.scene.up, loaded.scene.crs, asked->unit_metres.value_or(0.0)};
+  if (!asked->unit_metres && !(describe_crs(frame.crs).horizontal_metres > 0.0))
+    std::fputs("splatray-measure: note: the file names no unit; its coordinates are taken for metres\n",
+               stderr);
   if (!asked->output.empty()) write_measures(measures, frame, asked->output);
-  std::fputs(table_of(measures, frame.up).c_str(), stdout);
+  std::fputs(table_of(measures, frame).c_str(), stdout);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -98,7 +98,10 @@ int render(int argc, char** argv) {
   watch.lap_ms();
   SceneOnDevice shown(*device, {.pipeline_folder = user_cache_folder(), .threads = asked.source.threads});
   shown.show_environment(shot.environment, note);
-  shown.open_and_free(loaded.scene);
+  if (shot.request.view.xray)
+    shown.open(loaded.scene);  // xray_image reads the splats
+  else
+    shown.open_and_free(loaded.scene);
   times.upload_ms = watch.lap_ms();
   expose(shot, shown, loaded.facts);
   times.exposure_ms = watch.lap_ms();

@@ -378,7 +378,7 @@ struct MeasurePlace {
 /// A value, and the half-width of its 95 % confidence interval: from the scan's noise and
 /// how smooth its surface is there, not from the scans' registration and scale.
 struct MeasureValue {
-  std::string name;  ///< such as "distance", "level", "area", "perimeter", "radius", "x"
+  std::string name;  ///< such as "distance", "horizontal", "area", "perimeter", "radius", "x"
   double value = 0.0;
   double within = 0.0;
   std::string unit;  ///< "length" (world units), "area" or "degrees"
@@ -389,8 +389,8 @@ struct Measure {
 };
 /// What is measured, and how.
 struct Measuring {
-  /// A point (its coordinates), the distance along two and more, the height of a second above a first, the angle at the second
-  /// of three, the area of the polygon of three and more, the radius of a sphere or cylinder around one.
+  /// A point (its coordinates), the distance along two and more, the horizontal distance of two, the vertical one, which is the height of
+  /// a second above a first ("height" before), the angle at the second of three, the area of the polygon of three and more, the radius of a sphere or cylinder around one.
   std::string kind = "distance";
   std::vector<MeasurePlace> places{};
   /// Spheres and cylinders are fitted to the surface within this distance of the place, world units.

@@ -40,9 +40,11 @@ TEST(Measures, AreThoseOfGeometryAtLargeCoordinates) {
   const Measure path = measure_of(MeasureKind::distance, {{0, 0, 0}, {3, 0, 0}, {3, 4, 12}});
   EXPECT_NEAR(value_of(path, "distance"), 3.0 + std::sqrt(160.0), 1e-8);
   EXPECT_NEAR(value_of(path, "straight"), 13.0, 1e-8);
-  EXPECT_NEAR(value_of(path, "level"), 5.0, 1e-8);
-  EXPECT_NEAR(value_of(path, "upright"), 12.0, 1e-8);
-  EXPECT_NEAR(value_of(measure_of(MeasureKind::height, {{0, 0, 5}, {9, 9, 2}}), "height"), -3.0, 1e-8);
+  EXPECT_NEAR(value_of(path, "horizontal"), 5.0, 1e-8);
+  EXPECT_NEAR(value_of(path, "vertical"), 12.0, 1e-8);
+  const std::vector<glm::dvec3> ends = {{0, 0, 5}, {9, 12, 2}};
+  EXPECT_NEAR(values_of(measure_of(MeasureKind::vertical, ends), UP).front().value, -3.0, 1e-8);
+  EXPECT_NEAR(values_of(measure_of(MeasureKind::horizontal, ends), UP).front().value, 15.0, 1e-8);
   EXPECT_NEAR(value_of(measure_of(MeasureKind::angle, {{1, 0, 0}, {0, 0, 0}, {0, 0, 2}}), "angle"), 90.0,
               1e-6);
   const Measure square = measure_of(MeasureKind::area, {{0, 0, 0}, {2, 0, 0}, {2, 2, 2}, {0, 2, 2}});
@@ -71,19 +73,68 @@ TEST(Measures, TakeOfErrorsWhatLiesAlongThem) {
 }
 
 TEST(Measures, AreWrittenWithTheDigitsThatCount) {
-  EXPECT_EQ(value_text({"", 12.345678, 0.0023, MeasureUnit::length}), "12.3457 \u00B10.0023");
-  EXPECT_EQ(value_text({"", 12.345678, 3.0, MeasureUnit::length}), "12.3 \u00B13.0");
-  EXPECT_EQ(value_text({"", 90.0, 0.0, MeasureUnit::degrees}), "90\u00B0");
+  const auto text = [](double value, double within, MeasureUnit unit, double metres) {
+    return value_text({"", value, within, unit}, metres);
+  };
+  EXPECT_EQ(text(12.345678, 0.0023, MeasureUnit::length, 1.0), "12.3457 \u00B10.0023 m");
+  EXPECT_EQ(text(12.345678, 3.0, MeasureUnit::length, 1.0), "12.3 \u00B13.0 m");
+  EXPECT_EQ(text(12.345678, 0.00996, MeasureUnit::length, 0.3048), "12.346 \u00B10.010 ft");
+  EXPECT_EQ(text(12345.678, 123.4, MeasureUnit::area, 1.0), "12350 \u00B1120 m\u00B2");
+  EXPECT_EQ(text(-0.0001, 0.03, MeasureUnit::length, 1.0), "0.000 \u00B10.030 m") << "not -0";
+  EXPECT_EQ(text(45.123456, 0.25, MeasureUnit::degrees, 1.0), "45.12 \u00B10.25\u00B0");
+  EXPECT_EQ(text(90.0, 0.0, MeasureUnit::degrees, 1.0), "90\u00B0");
+  EXPECT_EQ(text(1004.000006, 0.0, MeasureUnit::length, 1.0), "1004 m") << "a tenth of a millimetre";
+  EXPECT_EQ(text(2002.49999963, 0.0, MeasureUnit::length, 0.001), "2002.5 mm");
+  EXPECT_EQ(text(7.0, 0.0, MeasureUnit::length, 0.5), "7 units");
+}
+
+TEST(Measures, HaveTwoDigitsOfTheirIntervalsWhateverThatIs) {
+  for (double within = 1.0e-9; within < 1.0e9; within *= 1.0371) {
+    const int decimals = decimals_of(within);
+    const double digits = std::round(within * std::pow(10.0, decimals));
+    EXPECT_TRUE(digits >= 10.0 && digits <= 99.0) << within << " with " << decimals;
+    EXPECT_NEAR(std::strtod(rounded_text(within, decimals).c_str(), nullptr), within, 0.05 * within);
+  }
+}
+
+TEST(Measures, WithoutAnIntervalHaveTheDigitsOfWhatTheyStandBeside) {
+  const Measure distance =
+      measure_of(MeasureKind::distance, {{0, 0, 0}, {16.123456, 0, 0.5}}, {0.0, 0.0, 0.003});
+  const std::vector<MeasureRow> rows = measure_rows(std::vector(1, distance), {UP, "", 0.0});
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1].quantity, "horizontal");
+  EXPECT_EQ(rows[1].words.value + "|" + rows[1].words.within, "16.1235|");
+  EXPECT_EQ(rows[2].words.value + "|" + rows[2].words.within, "0.5000|0.0083");
+}
+
+TEST(Measures, AreATableWithHeaderNameAndUnit) {
+  Measure distance = measure_of(MeasureKind::distance, {{0, 0, 0}, {2, 0, 0}}, {0.003, 0.0, 0.0});
+  distance.name = "door, \"left\"";
+  const std::vector<Measure> measures = {distance, measure_of(MeasureKind::point, {{1, 2, 3}})};
+  const std::string csv = csv_text(measures, {UP, "EPSG:2263;xy=0.3048006096012192"});
+  EXPECT_TRUE(
+      csv.starts_with("id,name,kind,quantity,value,within_95,unit\n"
+                      "1,\"door, \"\"left\"\"\",distance,distance,2.0000,0.0083,us-ft\n"))
+      << csv;
+  EXPECT_NE(csv.find("\n2,,point,x,431251,,us-ft\n"), std::string::npos) << csv;
+  const std::string table = table_of(measures, {UP, ""});
+  EXPECT_NE(table.find("1\tdoor, \"left\"\tdistance\tdistance\t2.0000\t0.0083\tm\n"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("\n\nid\tplace\tx\ty\tz\tunit\n1\t1\t431250.0000\t5412360.0000\t217.0000\tm\n"),
+            std::string::npos)
+      << table;
 }
 
 TEST(Measures, SayTheMainThingBesideTheirMarks) {
   const Measure point{MeasureKind::point, {{{1.25, -2.5, 3.0}, {0.0, 0.0, 0.001}}}};
-  EXPECT_EQ(short_text(point, UP), "1.25, -2.5, 3.0000");
+  EXPECT_EQ(short_text(point, {UP}), "1.2500, -2.5000, 3.0000 m");
   Measure area{MeasureKind::area, {}};
   for (const glm::dvec3& corner : {glm::dvec3(0, 0, 0), glm::dvec3(2, 0, 0), glm::dvec3(0, 2, 0)})
     area.points.push_back({corner, {}});
-  EXPECT_EQ(short_text(area, UP), "A 2");
-  EXPECT_EQ(short_text({MeasureKind::distance, {}}, UP), "");
+  EXPECT_EQ(short_text(area, {UP}), "A 2 m\u00B2");
+  EXPECT_EQ(short_text({MeasureKind::distance, {}}, {UP}), "");
+  area.name = "hall";
+  EXPECT_EQ(labelled_text(area, {UP}), "hall: A 2 m\u00B2");
 }
 
 TEST(MeasureText, TakesPointsAndRays) {
@@ -94,7 +145,7 @@ TEST(MeasureText, TakesPointsAndRays) {
   EXPECT_EQ(read_measure(MeasureKind::sphere, "1,2,3;0.5").reach, 0.5);
   for (const char* text : {"", "1,2,3", "1,2;3,4", "1,2,3>0,0,0;1,2,3", "1,2,3;1,2,nan"})
     EXPECT_THROW((void)read_measure(MeasureKind::distance, text), Expected) << text;
-  EXPECT_THROW((void)read_measure(MeasureKind::height, "0,0,0;1,1,1;2,2,2"), Expected);
+  EXPECT_THROW((void)read_measure(MeasureKind::vertical, "0,0,0;1,1,1;2,2,2"), Expected);
   try {
     (void)read_measure(MeasureKind::distance, "1,2;3,4");
   } catch (const Expected& expected) {
@@ -107,10 +158,12 @@ std::vector<Measure> all_kinds() {
   std::vector<Measure> measures = {
       measure_of(MeasureKind::point, {{1, 2, 3}}),
       measure_of(MeasureKind::distance, {{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}),
-      measure_of(MeasureKind::height, {{0, 0, 0}, {1, 0, 4}}),
+      measure_of(MeasureKind::vertical, {{0, 0, 0}, {1, 0, 4}}),
+      measure_of(MeasureKind::horizontal, {{0, 0, 0}, {1, 0, 4}}),
       measure_of(MeasureKind::angle, {{0, 0, 0}, {1, 0, 4}, {2, 2, 2}}),
       measure_of(MeasureKind::area, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0.0, 0.0, 0.001}),
       measure_of(MeasureKind::cylinder, {{1, 2, 3}})};
+  measures.front().name = "Stra\u00DFe";
   measures.front().points.front().sideways = {0.01, 0.0, 0.02};
   measures.back().fit = RadiusFit{0.25, 0.001, 0.002, FAR_AWAY, {0.0, 0.6, 0.8}, 77};
   return measures;
@@ -120,9 +173,51 @@ TEST(MeasureFile, OfGeoJsonIsReadAgain) {
   const TempFolder folder;
   const std::vector<Measure> measures = all_kinds();
   write_measures(measures, {UP, "EPSG:25832"}, folder.path() / "m.geojson");
-  EXPECT_EQ(read_measures(folder.path() / "m.geojson"), measures);
+  EXPECT_EQ(read_measures(folder.path() / "m.geojson", "EPSG:25832"), measures);
+  EXPECT_EQ(read_measures(folder.path() / "m.geojson", ""), measures);
+  EXPECT_THROW((void)read_measures(folder.path() / "m.geojson", "EPSG:25833"), Error) << "of another system";
   EXPECT_NE(geojson_text(measures, {UP, "EPSG:25832"}).find("urn:ogc:def:crs:EPSG::25832"),
             std::string::npos);
+}
+
+/// As QGIS and GDAL write what they have read: one kind of geometry a layer, in several parts each; every feature with the properties of
+/// all, lists as texts; further properties; sometimes two coordinates.
+TEST(MeasureFile, OfQgisIsReadAgain) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& features, const std::string& crs = "EPSG:25832") {
+    folder.write(
+        "q.geojson",
+        "{\"type\": \"FeatureCollection\", \"name\": \"q\", \"crs\": {\"type\": \"name\", \"properties\": "
+        "{\"name\": \"urn:ogc:def:crs:EPSG::25832\"}}, \"features\": [" +
+            features + "]}");
+    return read_measures(folder.path() / "q.geojson", crs);
+  };
+  const std::string saved =
+      R"({"type": "Feature", "properties": {"fid": 7, "id": 2, "name": "hall", "kind": "area", "area": 4.0, "note": null,
+          "errors": "[ [ 0, 0, 0.001 ], [ 0, 0, 0.001 ], [ 0, 0, 0.001 ] ]", "errors_sideways": null, "center": null, "axis": null},
+          "geometry": {"type": "MultiPolygon", "coordinates": [[[[0, 0, 5], [4, 0, 5], [4, 2, 5], [0, 0, 5]]]]}})";
+  const std::vector<Measure> area = read(saved);
+  ASSERT_EQ(area.size(), 1U);
+  EXPECT_EQ(area[0].name, "hall");
+  EXPECT_EQ(area[0].kind, MeasureKind::area);
+  EXPECT_EQ(values_of(area[0], UP).front().value, 4.0);
+  EXPECT_GT(values_of(area[0], {0.0, 1.0, 0.0}).size(), 0U);
+  EXPECT_EQ(area[0].points[1].error, glm::dvec3(0.0, 0.0, 0.001));
+  const std::vector<Measure> line = read(
+      R"({"type": "Feature", "properties": {"fid": 1}, "geometry": {"type": "MultiLineString", "coordinates": [[[0, 0], [3, 4]]]}})");
+  EXPECT_EQ(line[0].kind, MeasureKind::distance);
+  EXPECT_EQ(values_of(line[0], UP).front().value, 5.0) << "of two coordinates each";
+  const std::vector<Measure> point = read(
+      R"({"type": "Feature", "properties": null, "geometry": {"type": "Point", "coordinates": [1, 2, 3]}})");
+  EXPECT_EQ(point[0].points[0].place, glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_THROW((void)read(saved, "EPSG:4326"), Error);
+  for (
+      const char* wrong :
+      {R"({"properties": {}, "geometry": {"type": "MultiLineString", "coordinates": [[[0, 0], [1, 0]], [[5, 0], [6, 0]]]}})",
+       R"({"properties": {}, "geometry": {"type": "GeometryCollection", "geometries": []}})",
+       R"({"properties": {"errors": "[1"}, "geometry": {"type": "Point", "coordinates": [1, 2, 3]}})",
+       R"({"properties": {}, "geometry": null})"})
+    EXPECT_THROW((void)read(wrong), Error) << wrong;
 }
 
 TEST(MeasureFile, ThatIsNoneIsRefused) {
@@ -132,9 +227,9 @@ TEST(MeasureFile, ThatIsNoneIsRefused) {
        {"", "{", "[]", "{\"features\": 5}", "{\"features\": [{}]}",
         "{\"features\": [{\"properties\": {\"kind\": \"girth\"}, \"geometry\": {}}]}"}) {
     folder.write("m.geojson", text);
-    EXPECT_THROW((void)read_measures(path), Error) << text;
+    EXPECT_THROW((void)read_measures(path, ""), Error) << text;
   }
-  EXPECT_THROW((void)read_measures(folder.path() / "none.geojson"), Error);
+  EXPECT_THROW((void)read_measures(folder.path() / "none.geojson", ""), Error);
   EXPECT_THROW(write_measures({}, {}, folder.path() / "m.txt"), Error);
 }
 
@@ -146,6 +241,7 @@ TEST(MeasureFile, OfDxfHasPairsOfCodeAndValueInAscii) {
   EXPECT_TRUE(text.starts_with("0\nSECTION\n2\nHEADER\n"));
   EXPECT_TRUE(text.ends_with("0\nENDSEC\n0\nEOF\n"));
   EXPECT_NE(text.find("\\U+00B1"), std::string::npos);
+  EXPECT_NE(text.find("\n8\nMEASURES\n"), std::string::npos);
 }
 
 TEST(Dxf, PlacesOfCirclesAreOfTheirOwnSystem) {
@@ -234,7 +330,7 @@ TEST(SurfacePoint, HoldsWhatSmoothingMovedItInTheInterval) {
   }
   const testing::BuiltScan built = testing::build_scan(points, {.smooth_world = 0.3});
   ASSERT_GT(built.stats.moved_median_world, 0.4 * APART) << "nothing moved, nothing shown";
-  Measure measure{MeasureKind::height, {}};
+  Measure measure{MeasureKind::vertical, {}};
   for (const double z : {0.0, APART})
     measure.points.push_back(nearest_point(built.scene, {}, {1.0, 1.0, z})->point);
   const MeasureValue height = values_of(measure, UP).front();

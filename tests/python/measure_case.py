@@ -26,7 +26,10 @@ class Measures(unittest.TestCase):
         through = [(self.near, IN), (self.far, np.negative(IN))]
         self.assertEqual(self.check("distance", through, "distance", 2.0).unit, "length")
         self.check("distance", [self.west, self.east], "distance", 2.0)
-        self.check("height", [np.add(CENTER, (0, 0, -1)), np.add(CENTER, (0, 0, 1))], "height", 2.0)
+        ends = [np.add(CENTER, (0, 0, -1)), np.add(CENTER, (0, 0, 1))]
+        self.check("vertical", ends, "vertical", 2.0)
+        self.check("height", ends, "vertical", 2.0)  # its old name
+        self.check("horizontal", ends, "horizontal", 0.0)
         corners = [np.add(CENTER, corner) for corner in ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0))]
         self.assertEqual(self.check("area", corners, "area", 2.0, 1e-3).unit, "area")
         # The nearest place of the discs may be the rim of one, a radius aside.

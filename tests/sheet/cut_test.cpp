@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "app/library/cut/cut_hatch.h"
 #include "app/library/cut/plane_cut.h"
 #include "preprocess/build.h"
 
@@ -188,8 +189,44 @@ TEST(PlaneCut, IsThreeClosedCurvesWithCorners) {
     double least = 1.0;
     for (const CutCurve& curve : plan())
       for (const glm::dvec2& point : curve.points) least = std::min(least, glm::distance(point, wall.from));
-    EXPECT_LT(least, is_at_thin_end(wall.from) ? SPACING : 0.003) << wall.from.x << ", " << wall.from.y;
+    std::printf("corner %.2f, %.2f: %.2f mm\n", wall.from.x, wall.from.y, 1e3 * least);
+    EXPECT_LT(least, 0.003) << wall.from.x << ", " << wall.from.y;
   }
+}
+
+bool is_solid(const glm::dvec2& place) {
+  const auto in_box = [&place](const glm::dvec2& low, const glm::dvec2& high) {
+    return place.x >= low.x && place.y >= low.y && place.x <= high.x && place.y <= high.y;
+  };
+  return !in_box({0.0, 0.0}, {6.0, 4.0}) || in_box({2.0, 2.0}, {2.05, 4.0}) ||
+         in_box({4.5, 1.5}, {4.9, 1.9}) || glm::distance(place, COLUMN) < COLUMN_RADIUS;
+}
+
+TEST(CutHatch, IsInWhatIsSolidAndNowhereElse) {
+  const HatchStyle style{0.02, 0.1, 1.5};
+  std::vector<Wall> lines;
+  for (const auto& [from, to] : cut_hatch(plan(), style)) lines.push_back({from, to});
+  std::size_t all = 0, solid = 0, pillar = 0, column = 0, thin = 0, outside = 0;
+  for_each_millimetre(lines, [&](const glm::dvec2& place) {
+    ++all;
+    solid += is_solid(place) || distance_to_truth(place) < 0.002 ? 1 : 0;
+    pillar += glm::distance(place, {4.7, 1.7}) < 0.3 ? 1 : 0;
+    column += glm::distance(place, COLUMN) < 0.25 ? 1 : 0;
+    thin += glm::distance(place, {2.025, 3.0}) < 0.5 ? 1 : 0;
+    outside += place.x < -0.11 || place.y < -0.11 ? 1 : 0;
+  });
+  EXPECT_EQ(solid, all) << "air is hatched";
+  const double line_area = 0.001 * style.spacing;
+  EXPECT_NEAR(line_area * double(pillar), 0.16, 0.008);
+  EXPECT_NEAR(line_area * double(column), std::numbers::pi * COLUMN_RADIUS * COLUMN_RADIUS, 0.006);
+  EXPECT_NEAR(line_area * double(thin), 0.05, 0.004) << "a wall of 50 mm, a metre long";
+  EXPECT_EQ(outside, 0U) << "where nothing is known";
+  std::vector<CutCurve> turned = plan();
+  for (CutCurve& curve : turned) std::reverse(curve.points.begin(), curve.points.end());
+  double air = 0.0;
+  for (const auto& [from, to] : cut_hatch(turned, style))
+    air += is_solid(0.5 * (from + to)) ? 0.0 : glm::distance(from, to);
+  EXPECT_GT(air, 10.0) << "the comparison sees backs that are fronts";
 }
 
 TEST(PlaneCut, EndsWhereTheRegionDoes) {

@@ -174,9 +174,12 @@ TEST(SheetPage, SaysWhatColoursMean) {
   const Drawing bare = page_of(sheet);
   sheet.legend = {"height", 99.0, 101.25, {pack_color(vec3(0.0F)), pack_color(vec3(1.0F, 0.0F, 0.0F))}, {}};
   const Drawing ramp = page_of(sheet);
-  EXPECT_TRUE(has(ramp, "height, m") && has(ramp, "99") && has(ramp, "101.25"));
+  EXPECT_TRUE(has(ramp, "height") && has(ramp, "99.00 m") && has(ramp, "101.25 m"));
   EXPECT_TRUE(std::any_of(ramp.boxes.begin(), ramp.boxes.end(),
                           [](const DrawnBox& box) { return box.fill.x > 0.99F && box.fill.y < 0.01F; }));
+  sheet.legend.low = -0.00127903;
+  const Drawing from_zero = page_of(sheet);
+  EXPECT_TRUE(has(from_zero, "0 m") && has(from_zero, "101 m")) << "a colour tells no more apart";
   sheet.legend = {"class", 0.0, 0.0, {}, {}};
   for (const std::uint32_t value : {2U, 5U, 6U, 9U, 17U})
     sheet.legend.categories.push_back({value, class_name(value), pack_color(vec3(0.0F, 1.0F, 0.0F)), 1});
@@ -223,11 +226,14 @@ TEST(SheetPage, HasValuesOfMeasuresWhereTheyCoverNothing) {
   sheet.corner = {0.0, 60.0};
   const Measure measure{MeasureKind::distance, {{{20.0, 20.0, 0.0}}, {{40.0, 20.0, 0.0}}}};
   const Drawing one = sheet_page(sheet, all_of(sheet), {}, std::vector(1, measure));
-  EXPECT_TRUE(has(one, "20"));
+  EXPECT_TRUE(has(one, "1: 20 m"));
+  for (const char* cell :
+       {"No.", "Name", "Kind", "Value", "\u00B1 (95 %)", "Unit", "1", "distance", "20", "m"})
+    EXPECT_TRUE(has(one, cell)) << cell;
   const Drawing many = sheet_page(sheet, all_of(sheet), {}, std::vector(200, measure));
   EXPECT_EQ(findings(many), std::vector<std::string>{});
   EXPECT_TRUE(std::any_of(many.texts.begin(), many.texts.end(), [](const DrawnText& text) {
-    return text.text.find("its place has no room") != std::string::npos;
+    return text.text.find("No room at their places for the numbers of") != std::string::npos;
   }));
 }
 

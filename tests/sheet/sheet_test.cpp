@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/library/picture/picture_file.h"
+#include "app/library/picture/xray.h"
 #include "app/library/request/fields.h"
 #include "app/library/sheet/draw_cut.h"
 #include "app/library/sheet/geotiff.h"
@@ -15,6 +16,7 @@
 #include "app/library/shot/sheet_placement.h"
 #include "engine/base/error.h"
 #include "engine/scene/splat.h"
+#include "preprocess/build.h"
 #include "tests/sheet/sheet_of_ball.h"
 #include "tests/trace/scenes.h"
 
@@ -24,9 +26,10 @@ namespace {
 using testing::ball, testing::FAR_AWAY, testing::with_sheet;
 
 TEST(SheetText, IsReadAndWrittenAlike) {
-  for (const char* text : {"plan", "plan:z=1.2,depth=1.4,scale=20,dpi=150", "section:0,1,2.5,1,depth=3",
-                           "elevation:180,weight=0", "ortho:1,1,-1,unit=0.3048", "plan:paper=A3",
-                           "section:0,1,2.5,1,paper=A0,landscape", "plan:portrait"}) {
+  for (const char* text :
+       {"plan", "plan:z=1.2,depth=1.4,scale=20,dpi=150", "section:0,1,2.5,1,depth=3",
+        "elevation:180,weight=0", "ortho:1,1,-1,unit=0.3048", "plan:paper=A3",
+        "section:0,1,2.5,1,paper=A0,landscape", "plan:portrait", "plan:z=1,hatch=0", "plan:z=1,hatch=3"}) {
     EXPECT_EQ(sheet_text(read_sheet(text)), text);
   }
   EXPECT_EQ(sheet_text(read_sheet("elevation:south,unit=ft")), "elevation:180,unit=0.3048");
@@ -51,6 +54,7 @@ TEST(SheetText, OfAnythingElseIsRefused) {
                            "ortho:0,0,0",
                            "plan:unit=yard",
                            "plan:weight=-1",
+                           "plan:hatch=-1",
                            "plan:paper=A5",
                            "plan:paper=",
                            "plan:sideways",
@@ -249,6 +253,76 @@ TEST(Ink, OfAPartIsThatOfTheWhole) {
       any |= image.rgba[i].x < 1.0F;
     }
     EXPECT_TRUE(any) << "no line to compare";
+  }
+}
+
+/// A room of 2 x 1.5 x 1 m whose points lie in squares of 2 cm, z up.
+Scene square_room() {
+  constexpr double STEP = 0.02, LOW = 1e-3;
+  Input input;
+  std::vector<glm::dvec3>& places = input.objects.emplace_back().points.position;
+  const glm::dvec3 size(2.0, 1.5, 1.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    for (const double side : {0.0, size[axis]})
+      for (double i = LOW; i < size[a]; i += STEP)
+        for (double j = LOW; j < size[b]; j += STEP) {
+          glm::dvec3 place(0.0);
+          place[axis] = side;
+          place[a] = i;
+          place[b] = j;
+          places.push_back(place);
+        }
+  }
+  BuildStats stats;
+  Scene scene = build_scene(std::move(input), {}, 0, stats);
+  scene.up = {0.0, 0.0, 1.0};
+  return scene;
+}
+
+TEST(Xray, ShowsWallsDarkOnEvenGroundWithoutAPattern) {
+  const Scene scene = square_room();
+  const Sheet sheet = make_sheet(scene, with_sheet("plan:scale=20,dpi=200"));
+  const PixelWindow all{0, 0, sheet.width, sheet.height};
+  const Image image = xray_image(scene, scene.materials, sheet, all, {}, {});
+  const auto shade_at = [&](double x, double y) {
+    const glm::dvec2 at = sheet.pixel_of({x, y});
+    return image.rgba[static_cast<std::size_t>(at.y) * image.width + static_cast<std::size_t>(at.x)];
+  };
+  EXPECT_EQ(shade_at(-0.05, 0.7).w, 0.0F) << "beside the room";
+  float darkest_wall = 1.0F, lightest_wall = 0.0F, darkest_floor = 1.0F, lightest_floor = 0.0F;
+  for (double along = 0.1; along < 1.4; along += 0.0031) {
+    const float wall = std::min(shade_at(0.0, along).x, shade_at(0.002, along).x);
+    darkest_wall = std::min(darkest_wall, wall);
+    lightest_wall = std::max(lightest_wall, wall);
+    for (double across = 0.1; across < 1.9; across += 0.0037) {
+      const vec4 floor = shade_at(across, along);
+      EXPECT_EQ(floor.w, 1.0F);
+      darkest_floor = std::min(darkest_floor, floor.x);
+      lightest_floor = std::max(lightest_floor, floor.x);
+    }
+  }
+  std::printf("walls %.3f to %.3f, floor %.3f to %.3f\n", double(darkest_wall), double(lightest_wall),
+              double(darkest_floor), double(lightest_floor));
+  EXPECT_LT(lightest_wall, 0.1F);
+  EXPECT_GT(darkest_floor, 0.6F);
+  EXPECT_LT(lightest_floor - darkest_floor, 0.12F) << "discs are seen";
+  Scene hidden = scene;
+  hidden.materials[0].flags |= MATERIAL_HIDDEN;
+  for (const vec4& pixel : xray_image(hidden, hidden.materials, sheet, all, {}, {}).rgba)
+    ASSERT_EQ(pixel.w, 0.0F);
+}
+
+TEST(Xray, OfAPartIsThatOfTheWhole) {
+  const Scene scene = square_room();
+  const Sheet sheet = make_sheet(scene, with_sheet("elevation:south,scale=20,dpi=100"));
+  const Image whole = xray_image(scene, scene.materials, sheet, {0, 0, sheet.width, sheet.height}, {}, {});
+  const PixelWindow part{7, 11, sheet.width - 20, sheet.height - 15};
+  const Image image = xray_image(scene, scene.materials, sheet, part, {}, {});
+  for (std::uint32_t i = 0; i < image.rgba.size(); ++i) {
+    const vec4 wanted = whole.rgba[(part.y + i / part.width) * whole.width + part.x + i % part.width];
+    for (int channel = 0; channel < 4; ++channel)
+      ASSERT_NEAR(image.rgba[i][channel], wanted[channel], 1e-3F) << i;
   }
 }
 

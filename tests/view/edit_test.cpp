@@ -282,12 +282,12 @@ TEST_F(EditPanels, RegionsAreSwitchedOnAndOff) {
 }
 
 TEST_F(EditPanels, MeasuresAreListedAndCopied) {
-  gui.click("##column", {"height"});
-  EXPECT_EQ(gui.state.measuring, MeasureKind::height);
+  gui.click("##column", {"vertical"});
+  EXPECT_EQ(gui.state.measuring, MeasureKind::vertical);
   gui.document.measures = {{MeasureKind::distance, {{{1, 2, 3}}, {{1, 2, 5}}}},
                            {MeasureKind::area, {{{1, 2, 3}}}}};
   gui.click("##column", {"copy all"});
-  EXPECT_NE(std::string(ImGui::GetClipboardText()).find("distance\t2"), std::string::npos)
+  EXPECT_NE(std::string(ImGui::GetClipboardText()).find("distance\t2\t\tm"), std::string::npos)
       << ImGui::GetClipboardText();
   gui.click("##column", {0, "remove"});
   ASSERT_EQ(gui.document.measures.size(), 1U);

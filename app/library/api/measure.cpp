@@ -24,7 +24,8 @@ GivenPlace given_place(const MeasurePlace& place, std::size_t number) {
 GivenMeasure given_measure(const Measuring& measuring) {
   const std::optional<MeasureKind> kind = measure_kind(measuring.kind);
   if (!kind)
-    refuse("a measure '" + measuring.kind + "'", "point, distance, height, angle, area, sphere or cylinder");
+    refuse("a measure '" + measuring.kind + "'",
+           "point, distance, horizontal, vertical, angle, area, sphere or cylinder");
   GivenMeasure given{*kind, {}, std::isfinite(measuring.reach) ? measuring.reach : 0.0};
   for (const MeasurePlace& place : measuring.places)
     given.places.push_back(given_place(place, given.places.size()));

@@ -264,13 +264,15 @@ void DxfWriter::place(int code, const glm::dvec3& at) {
   for (int axis = 0; axis < 3; ++axis) add(entities_, {{code + 10 * axis, number_text(at[axis])}});
 }
 
-void DxfWriter::polyline(const std::string& layer, const std::vector<glm::dvec2>& points, bool closed) {
+void DxfWriter::polyline(const std::string& layer, const std::vector<glm::dvec2>& points, bool closed,
+                         double height) {
   if (points.size() < 2) return;
   entity("LWPOLYLINE", layer, "AcDbPolyline");
   add(entities_, {{90, std::to_string(points.size())}, {70, closed ? "1" : "0"}});
+  if (height != 0.0) add(entities_, {{38, number_text(height)}});
   for (const glm::dvec2& point : points) {
     add(entities_, {{10, number_text(point.x)}, {20, number_text(point.y)}});
-    include({point, 0.0});
+    include({point, height});
   }
 }
 

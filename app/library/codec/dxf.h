@@ -20,8 +20,9 @@ class DxfWriter {
   /// `unit_metres`: of a length of 1; named in the header ($INSUNITS) where DXF has a name for it. Entities lie on these layers.
   DxfWriter(double unit_metres, std::vector<DxfLayer> layers);
 
-  /// At height 0 (LWPOLYLINE). Fewer than two points are nothing.
-  void polyline(const std::string& layer, const std::vector<glm::dvec2>& points, bool closed);
+  /// At one height (LWPOLYLINE). Fewer than two points are nothing.
+  void polyline(const std::string& layer, const std::vector<glm::dvec2>& points, bool closed,
+                double height = 0.0);
   void line(const std::string& layer, const glm::dvec3& from, const glm::dvec3& to);
   void point(const std::string& layer, const glm::dvec3& at);
   /// `axis`: of any length; 0 = upwards.

@@ -10,7 +10,7 @@ std::vector<CutCurve> plane_cut(const Scene& scene, const Region& region, const 
                                 double tolerance) {
   const CutSurface surface(scene, plane);
   const auto holds = [&](const glm::dvec2& place) { return region.holds(plane.world(place)); };
-  std::vector<CutCurve> curves = joined(trace_curves(surface, holds));
+  std::vector<CutCurve> curves = joined(surface, trace_curves(surface, holds));
   for (CutCurve& curve : curves) curve = simplified(curve, tolerance);
   return curves;
 }

@@ -18,7 +18,7 @@ struct CutPlane {
   }
 };
 
-/// Places along CutPlane::right and top, world units.
+/// Places along CutPlane::right and top, world units; the surface's front lies to the left of most of the way.
 struct CutCurve {
   std::vector<glm::dvec2> points;
   bool closed = false;  ///< the last point goes on to the first

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <numbers>
 
@@ -12,19 +11,6 @@ namespace {
 
 constexpr double ROUNDED = 1e-4;        ///< of an error: three steps of a splat's normal (OCT_SCALE), radians
 constexpr double OF_95_PERCENT = 1.96;  ///< standard deviations of a normal distribution
-
-std::string formatted(double value, const char* format) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
-/// For printf: as many digits as the interval has two of.
-std::string format_of(const MeasureValue& value) {
-  if (!(value.within > 0.0)) return "%.9g";
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(value.within))), 0, 12);
-  return "%." + std::to_string(digits) + "f";
-}
 
 using Places = std::vector<glm::dvec3>;
 
@@ -59,7 +45,7 @@ MeasureValue propagated(const char* name, MeasureUnit unit, const Measure& measu
   return {name, value, OF_95_PERCENT * deviation, unit};
 }
 
-double level_part(const Places& points, const glm::dvec3& up) {
+double horizontal_part(const Places& points, const glm::dvec3& up) {
   const glm::dvec3 along = points.back() - points.front();
   return glm::length(along - glm::dot(along, glm::normalize(up)) * glm::normalize(up));
 }
@@ -75,21 +61,61 @@ std::vector<MeasureValue> radius_values(const Measure& measure) {
           {"residual", measure.fit->residual, 0.0, MeasureUnit::length}};
 }
 
+std::vector<MeasureValue> own_values(const Measure& measure, const glm::dvec3& up) {
+  if (measure.points.size() < points_needed(measure.kind)) return {};
+  const auto value = [&measure](const char* name, const std::function<double(const Places&)>& of,
+                                MeasureUnit unit = MeasureUnit::length) {
+    return propagated(name, unit, measure, of);
+  };
+  const auto straight = value("straight", [](const Places& p) { return glm::distance(p.front(), p.back()); });
+  const auto horizontal = value("horizontal", [&up](const Places& p) { return horizontal_part(p, up); });
+  const auto vertical =
+      value("vertical", [&up](const Places& p) { return height_above(p.front(), p.back(), up); });
+  switch (measure.kind) {
+    case MeasureKind::point:
+      return {value("x", [](const Places& p) { return p[0].x; }),
+              value("y", [](const Places& p) { return p[0].y; }),
+              value("z", [](const Places& p) { return p[0].z; })};
+    case MeasureKind::distance: {
+      std::vector<MeasureValue> values = {value("distance", [](const Places& p) { return path_length(p); })};
+      if (measure.points.size() > 2) values.push_back(straight);
+      values.insert(values.end(), {horizontal, vertical});
+      return values;
+    }
+    case MeasureKind::horizontal:
+      return {horizontal, vertical};
+    case MeasureKind::vertical:
+      return {vertical, horizontal};
+    case MeasureKind::angle:
+      return {value(
+          "angle", [](const Places& p) { return angle_deg(p[0], p[1], p[2]); }, MeasureUnit::degrees)};
+    case MeasureKind::area:
+      return {value(
+                  "area", [](const Places& p) { return polygon_area(p); }, MeasureUnit::area),
+              value("perimeter", perimeter)};
+    case MeasureKind::sphere:
+    case MeasureKind::cylinder:
+      return radius_values(measure);
+  }
+  return {};
+}
+
 }  // namespace
 
 const char* measure_name(MeasureKind kind) {
-  static constexpr std::array NAMES = {"point", "distance", "height", "angle", "area", "sphere", "cylinder"};
+  static constexpr std::array NAMES = {"point", "distance", "horizontal", "vertical",
+                                       "angle", "area",     "sphere",     "cylinder"};
   return NAMES.at(static_cast<std::size_t>(kind));
 }
 
 std::optional<MeasureKind> measure_kind(const std::string& name) {
   for (int kind = 0; kind < MEASURE_KINDS; ++kind)
     if (name == measure_name(static_cast<MeasureKind>(kind))) return static_cast<MeasureKind>(kind);
-  return {};
+  return name == OLD_VERTICAL ? std::optional(MeasureKind::vertical) : std::nullopt;
 }
 
 std::size_t points_needed(MeasureKind kind) {
-  static constexpr std::array<std::size_t, MEASURE_KINDS> NEEDED = {1, 2, 2, 3, 3, 1, 1};
+  static constexpr std::array<std::size_t, MEASURE_KINDS> NEEDED = {1, 2, 2, 2, 3, 3, 1, 1};
   return NEEDED.at(static_cast<std::size_t>(kind));
 }
 
@@ -127,75 +153,12 @@ double polygon_area(std::span<const glm::dvec3> points) {
 }
 
 std::vector<MeasureValue> values_of(const Measure& measure, const glm::dvec3& up) {
-  if (measure.points.size() < points_needed(measure.kind)) return {};
-  const auto value = [&measure](const char* name, const std::function<double(const Places&)>& of,
-                                MeasureUnit unit = MeasureUnit::length) {
-    return propagated(name, unit, measure, of);
-  };
-  const auto straight = value("straight", [](const Places& p) { return glm::distance(p.front(), p.back()); });
-  const auto level = value("level", [&up](const Places& p) { return level_part(p, up); });
-  const auto upright = [&](const char* name) {
-    return value(name, [&up](const Places& p) { return height_above(p.front(), p.back(), up); });
-  };
-  switch (measure.kind) {
-    case MeasureKind::point:
-      return {value("x", [](const Places& p) { return p[0].x; }),
-              value("y", [](const Places& p) { return p[0].y; }),
-              value("z", [](const Places& p) { return p[0].z; })};
-    case MeasureKind::distance: {
-      std::vector<MeasureValue> values = {value("distance", [](const Places& p) { return path_length(p); })};
-      if (measure.points.size() > 2) values.push_back(straight);
-      values.insert(values.end(), {level, upright("upright")});
-      return values;
-    }
-    case MeasureKind::height:
-      return {upright("height"), level};
-    case MeasureKind::angle:
-      return {value(
-          "angle", [](const Places& p) { return angle_deg(p[0], p[1], p[2]); }, MeasureUnit::degrees)};
-    case MeasureKind::area:
-      return {value(
-                  "area", [](const Places& p) { return polygon_area(p); }, MeasureUnit::area),
-              value("perimeter", perimeter)};
-    case MeasureKind::sphere:
-    case MeasureKind::cylinder:
-      return radius_values(measure);
-  }
-  return {};
-}
-
-std::string value_text(const MeasureValue& value) {
-  const char* unit = value.unit == MeasureUnit::degrees ? "\u00B0" : "";
-  const std::string format = format_of(value), number = formatted(value.value, format.c_str()) + unit;
-  if (!(value.within > 0.0)) return number;
-  return number + " \u00B1" + formatted(value.within, format.c_str()) + unit;
-}
-
-std::string short_text(const Measure& measure, const glm::dvec3& up) {
-  const std::vector<MeasureValue> values = values_of(measure, up);
-  if (values.empty()) return {};
-  if (measure.kind == MeasureKind::point) {
-    std::string text;
-    for (const MeasureValue& value : values)
-      text += (text.empty() ? "" : ", ") + formatted(value.value, format_of(value).c_str());
-    return text;
-  }
-  const std::string sign = measure.kind == MeasureKind::area ? "A " : (is_fitted(measure.kind) ? "R " : "");
-  return sign + value_text(values.front());
-}
-
-std::string table_of(std::span<const Measure> measures, const glm::dvec3& up) {
-  std::string text;
-  for (const Measure& measure : measures) {
-    for (const MeasureValue& value : values_of(measure, up))
-      text += std::string(measure_name(measure.kind)) + "\t" + value.name + "\t" + value_text(value) + "\n";
-    for (const SurfacePoint& point : measure.points) {
-      text += "\tat";
-      for (int axis = 0; axis < 3; ++axis) text += "\t" + formatted(point.place[axis], "%.12g");
-      text += "\n";
-    }
-  }
-  return text;
+  std::vector<MeasureValue> values = own_values(measure, up);
+  for (MeasureValue& value : values)
+    for (const MeasureValue& other : values)
+      if (!(value.within > 0.0) && other.unit == value.unit)
+        value.beside = std::max(value.beside, other.within);
+  return values;
 }
 
 }  // namespace splatray

@@ -23,16 +23,20 @@ struct SurfacePoint {
 };
 
 enum class MeasureKind {
-  point,     ///< its coordinates
-  distance,  ///< along two points and more
-  height,    ///< of the second above the first, along the up direction
-  angle,     ///< at the second of three
-  area,      ///< of the polygon of three and more
-  sphere,    ///< its radius
-  cylinder   ///< its radius
+  point,       ///< its coordinates
+  distance,    ///< along two points and more
+  horizontal,  ///< between two points, across the up direction
+  vertical,    ///< of the second above the first, along the up direction
+  angle,       ///< at the second of three
+  area,        ///< of the polygon of three and more
+  sphere,      ///< its radius
+  cylinder     ///< its radius
 };
-inline constexpr int MEASURE_KINDS = 7;
+inline constexpr int MEASURE_KINDS = 8;
 [[nodiscard]] const char* measure_name(MeasureKind kind);
+/// What a vertical measure was called before.
+inline constexpr const char* OLD_VERTICAL = "height";
+/// The kind of this name, or of an old one.
 [[nodiscard]] std::optional<MeasureKind> measure_kind(const std::string& name);
 /// Points that complete a measure; more may follow where `is_open_ended`.
 [[nodiscard]] std::size_t points_needed(MeasureKind kind);
@@ -45,6 +49,7 @@ struct Measure {
   MeasureKind kind = MeasureKind::distance;
   std::vector<SurfacePoint> points;
   std::optional<RadiusFit> fit{};  ///< of spheres and cylinders
+  std::string name{};              ///< given by who measures, UTF-8; may be empty
 
   bool operator==(const Measure&) const = default;
 };
@@ -70,15 +75,11 @@ struct MeasureValue {
   double value = 0.0;
   double within = 0.0;
   MeasureUnit unit = MeasureUnit::length;
+  /// The widest interval among the measure's other values of its unit, for a value without one; 0 = none.
+  double beside = 0.0;
 };
-/// What a measure says: of a distance also its level and upright part, of an area also its perimeter. Empty while points
+/// What a measure says: of a distance also its horizontal and vertical part, of an area also its perimeter. Empty while points
 /// are missing.
 [[nodiscard]] std::vector<MeasureValue> values_of(const Measure& measure, const glm::dvec3& up);
-/// "12.346 +-0.002" and so on: as many digits as the interval has two of; six where it is 0.
-[[nodiscard]] std::string value_text(const MeasureValue& value);
-/// What stands beside the marks in the picture: the value, with A before an area and R before a radius; a point's coordinates.
-[[nodiscard]] std::string short_text(const Measure& measure, const glm::dvec3& up);
-/// A line for each value and each point, tabs between.
-[[nodiscard]] std::string table_of(std::span<const Measure> measures, const glm::dvec3& up);
 
 }  // namespace splatray

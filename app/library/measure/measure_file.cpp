@@ -9,7 +9,7 @@
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/json_text.h"
-#include "engine/base/number_text.h"
+#include "engine/base/utf8.h"
 #include "engine/file/atomic_file.h"
 #include "preprocess/base/file_extension.h"
 
@@ -18,9 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* unit_name(MeasureUnit unit) {
-  return unit == MeasureUnit::degrees ? "degree" : (unit == MeasureUnit::area ? "unit^2" : "unit");
-}
+constexpr const char* MEASURES_LAYER = "MEASURES";
 
 Json geometry_of(const Measure& measure) {
   Json places = Json::array();
@@ -31,11 +29,16 @@ Json geometry_of(const Measure& measure) {
   return {{"type", "Polygon"}, {"coordinates", Json::array({places})}};
 }
 
-Json properties_of(const Measure& measure, const glm::dvec3& up) {
-  Json properties{{"kind", measure_name(measure.kind)}};
-  for (const MeasureValue& value : values_of(measure, up)) {
-    properties[value.name] = value.value;
-    properties[value.name + "_within_95"] = value.within;
+/// The number that a text says.
+Json number_of(const std::string& text) { return Json::parse(text); }
+
+Json properties_of(const Measure& measure, std::size_t id, const MeasureFrame& frame) {
+  Json properties{{"id", id}, {"name", measure.name}, {"kind", measure_name(measure.kind)}};
+  for (const MeasureValue& value : values_of(measure, frame.up)) {
+    const ValueWords words = value_words(value, unit_metres(frame));
+    properties[value.name] = number_of(words.value);
+    if (!words.within.empty()) properties[value.name + "_within_95"] = number_of(words.within);
+    properties[value.name + "_unit"] = words.unit;
   }
   Json errors = Json::array(), sideways = Json::array();
   for (const SurfacePoint& point : measure.points) {
@@ -45,7 +48,9 @@ Json properties_of(const Measure& measure, const glm::dvec3& up) {
   properties["errors"] = errors;
   properties["errors_sideways"] = sideways;
   if (!measure.fit) return properties;
+  properties["fitted_radius"] = measure.fit->radius;
   properties["radius_error"] = measure.fit->radius_error;
+  properties["fitted_residual"] = measure.fit->residual;
   properties["center"] = json_vector(measure.fit->center);
   properties["axis"] = json_vector(measure.fit->axis);
   properties["fitted_points"] = measure.fit->points;
@@ -61,43 +66,94 @@ double letter_height(std::span<const Measure> measures) {
   return longest > 0.0 ? SHARE * longest : SHARE;
 }
 
+/// A vector of three numbers, or a place of two at height 0.
 glm::dvec3 vector_of(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+  return {json.at(0).get<double>(), json.at(1).get<double>(),
+          json.size() > 2 ? json.at(2).get<double>() : 0.0};
+}
+
+/// A property; null where there is none. Some programs keep lists as texts of JSON.
+Json property(const Json& feature, const char* name) {
+  const Json& properties = feature.at("properties");
+  if (!properties.is_object() || !properties.contains(name)) return nullptr;
+  const Json& value = properties.at(name);
+  if (!value.is_string() || !value.get<std::string>().starts_with('[')) return value;
+  return Json::parse(value.get<std::string>());
+}
+
+struct Geometry {
+  std::string type;  ///< of one part: Point, LineString or Polygon
+  Json places;       ///< a list, a polygon's last place not as its first
+};
+
+Geometry geometry_in(const Json& feature) {
+  constexpr std::string_view MULTI = "Multi";
+  const Json& geometry = feature.at("geometry");
+  Geometry found{geometry.at("type"), geometry.at("coordinates")};
+  if (found.type.starts_with(MULTI)) {
+    if (found.places.size() != 1)
+      throw Expected{"one part in each, not " + std::to_string(found.places.size())};
+    found.type.erase(0, MULTI.size());
+    found.places = Json(found.places.at(0));
+  }
+  if (found.type == "Point") found.places = Json::array({found.places});
+  if (found.type != "Polygon") return found;
+  found.places = Json(found.places.at(0));
+  if (!found.places.empty()) found.places.erase(found.places.size() - 1);
+  return found;
+}
+
+MeasureKind kind_of(const Json& feature, const std::string& geometry) {
+  const Json name = property(feature, "kind");
+  if (!name.is_null()) {
+    if (const std::optional<MeasureKind> kind = measure_kind(name)) return *kind;
+    throw Expected{"a kind that splatray-measure has, not '" + name.get<std::string>() + "'"};
+  }
+  if (geometry == "Polygon") return MeasureKind::area;
+  if (geometry == "LineString") return MeasureKind::distance;
+  if (geometry == "Point") return MeasureKind::point;
+  throw Expected{"a point, a line or a polygon, not '" + geometry + "'"};
 }
 
 Measure measure_of(const Json& feature) {
-  const Json& properties = feature.at("properties");
-  const Json& geometry = feature.at("geometry");
-  const std::string name = properties.at("kind");
-  const std::optional<MeasureKind> kind = measure_kind(name);
-  if (!kind) throw Expected{"a kind that splatray-measure has, not '" + name + "'"};
-  Measure measure{*kind, {}};
-  Json places = geometry.at("coordinates");
-  if (geometry.at("type") == "Point") places = Json::array({places});
-  if (geometry.at("type") == "Polygon") {
-    places = Json(places.at(0));
-    if (!places.empty()) places.erase(places.size() - 1);
-  }
-  const bool has_sideways = properties.contains("errors_sideways");  // files of older versions have none
-  for (std::size_t i = 0; i < places.size(); ++i)
-    measure.points.push_back(
-        {vector_of(places[i]), vector_of(properties.at("errors").at(i)),
-         has_sideways ? vector_of(properties.at("errors_sideways").at(i)) : glm::dvec3(0.0)});
-  if (!properties.contains("center")) return measure;
-  measure.fit = RadiusFit{properties.at("radius"),          properties.at("radius_error"),
-                          properties.at("residual"),        vector_of(properties.at("center")),
-                          vector_of(properties.at("axis")), properties.at("fitted_points")};
+  const Geometry geometry = geometry_in(feature);
+  Measure measure{kind_of(feature, geometry.type), {}};
+  const Json name = property(feature, "name"), errors = property(feature, "errors"),
+             sideways = property(feature, "errors_sideways");
+  if (name.is_string()) measure.name = to_utf8(name.get<std::string>());
+  for (std::size_t i = 0; i < geometry.places.size(); ++i)
+    measure.points.push_back({vector_of(geometry.places[i]),
+                              errors.is_null() ? glm::dvec3(0.0) : vector_of(errors.at(i)),
+                              sideways.is_null() ? glm::dvec3(0.0) : vector_of(sideways.at(i))});
+  const Json center = property(feature, "center");
+  if (center.is_null()) return measure;
+  const auto number = [&feature](const char* first, const char* old) {
+    const Json value = property(feature, first);
+    return value.is_null() ? property(feature, old) : value;
+  };
+  measure.fit = RadiusFit{number("fitted_radius", "radius"),     property(feature, "radius_error"),
+                          number("fitted_residual", "residual"), vector_of(center),
+                          vector_of(property(feature, "axis")),  property(feature, "fitted_points")};
   return measure;
+}
+
+/// The system that a collection names; empty where it names none.
+std::string crs_of(const Json& collection) {
+  if (!collection.contains("crs") || !collection["crs"].is_object()) return {};
+  const std::string name = collection["crs"].at("properties").at("name");
+  constexpr std::string_view EPSG = "urn:ogc:def:crs:EPSG:";
+  if (name.ends_with("CRS84")) return "EPSG:4326";  // but for the order of its axes
+  return name.starts_with(EPSG) ? "EPSG:" + name.substr(name.rfind(':') + 1) : name;
 }
 
 }  // namespace
 
 std::string geojson_text(std::span<const Measure> measures, const MeasureFrame& frame) {
   Json features = Json::array();
-  for (const Measure& measure : measures)
+  for (std::size_t i = 0; i < measures.size(); ++i)
     features.push_back({{"type", "Feature"},
-                        {"properties", properties_of(measure, frame.up)},
-                        {"geometry", geometry_of(measure)}});
+                        {"properties", properties_of(measures[i], i + 1, frame)},
+                        {"geometry", geometry_of(measures[i])}});
   Json collection{{"type", "FeatureCollection"}};
   if (const Crs crs = describe_crs(frame.crs); !frame.crs.empty()) {
     const std::string name = crs.epsg > 0 ? "urn:ogc:def:crs:EPSG::" + std::to_string(crs.epsg) : crs.name;
@@ -109,35 +165,22 @@ std::string geojson_text(std::span<const Measure> measures, const MeasureFrame& 
 }
 
 std::string dxf_text(std::span<const Measure> measures, const MeasureFrame& frame) {
-  std::vector<DxfLayer> layers;
-  for (int kind = 0; kind < MEASURE_KINDS; ++kind)
-    layers.push_back({measure_name(static_cast<MeasureKind>(kind))});
-  DxfWriter dxf(describe_crs(frame.crs).horizontal_metres, layers);
+  DxfWriter dxf(unit_metres(frame), {{MEASURES_LAYER}});
   const double height = letter_height(measures);
   for (const Measure& measure : measures) {
-    const char* layer = measure_name(measure.kind);
     const std::vector<SurfacePoint>& points = measure.points;
     glm::dvec3 middle(0.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       middle += points[i].place / static_cast<double>(points.size());
-      dxf.point(layer, points[i].place);
-      if (i > 0) dxf.line(layer, points[i - 1].place, points[i].place);
+      dxf.point(MEASURES_LAYER, points[i].place);
+      if (i > 0) dxf.line(MEASURES_LAYER, points[i - 1].place, points[i].place);
     }
     if (measure.kind == MeasureKind::area && points.size() > 2)
-      dxf.line(layer, points.back().place, points.front().place);
-    if (measure.fit) dxf.circle(layer, measure.fit->center, measure.fit->radius, measure.fit->axis);
-    dxf.text(layer, middle, height, short_text(measure, frame.up));
+      dxf.line(MEASURES_LAYER, points.back().place, points.front().place);
+    if (measure.fit) dxf.circle(MEASURES_LAYER, measure.fit->center, measure.fit->radius, measure.fit->axis);
+    dxf.text(MEASURES_LAYER, middle, height, labelled_text(measure, frame));
   }
   return dxf.str();
-}
-
-std::string csv_text(std::span<const Measure> measures, const MeasureFrame& frame) {
-  std::string text = "number,kind,name,value,within_95,unit\n";
-  for (std::size_t i = 0; i < measures.size(); ++i)
-    for (const MeasureValue& value : values_of(measures[i], frame.up))
-      text += std::to_string(i + 1) + "," + measure_name(measures[i].kind) + "," + value.name + "," +
-              number_text(value.value) + "," + number_text(value.within) + "," + unit_name(value.unit) + "\n";
-  return text;
 }
 
 void require_measures_name(const std::filesystem::path& path) {
@@ -156,15 +199,24 @@ void write_measures(std::span<const Measure> measures, const MeasureFrame& frame
   require_measures_name(path);
 }
 
-std::vector<Measure> read_measures(const std::filesystem::path& path) {
+std::vector<Measure> read_measures(const std::filesystem::path& path, const std::string& crs) {
   const auto refuse = [&path](const std::string& found, const std::string& expected) {
     throw Error(ExitCode::input_unreadable,
                 "cannot read measures '" + path.string() + "': found " + found + ", expected " + expected);
   };
   const Json collection = read_json_file(path, refuse);
-  const std::string expected = "a .geojson of splatray-measure";
+  const std::string expected = "a .geojson of measures";
   if (!collection.is_object() || !collection.contains("features") || !collection["features"].is_array())
     refuse("no list 'features'", expected);
+  try {
+    const std::string named = crs_of(collection);
+    const unsigned found = describe_crs(named).epsg, wanted = describe_crs(crs).epsg;
+    if (found > 0 && wanted > 0 && found != wanted)
+      refuse("coordinates in EPSG:" + std::to_string(found),
+             "those of the scan, in EPSG:" + std::to_string(wanted));
+  } catch (const Json::exception&) {
+    refuse("a member 'crs' without a name", expected);
+  }
   std::vector<Measure> measures;
   for (const Json& feature : collection["features"]) {
     const std::string name = "feature " + std::to_string(measures.size() + 1);

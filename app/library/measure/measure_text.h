@@ -21,6 +21,7 @@ struct GivenMeasure {
   MeasureKind kind = MeasureKind::distance;
   std::vector<GivenPlace> places;
   double reach = 0.0;  ///< of spheres and cylinders: how far around the place, world units
+  std::string name{};  ///< Measure::name
 
   bool operator==(const GivenMeasure&) const = default;
 };

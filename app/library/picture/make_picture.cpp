@@ -91,7 +91,7 @@ MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& c
   if (lower_extension(shot.request.output.path) == ".dxf") return made;  // has no pixels
   if (shot.request.view.xray) {
     made.image =
-        xray_image(shown.tracer(), shown.scene().root, shown.look(), *sheet, window, shot.settings, progress);
+        xray_image(shown.scene(), shown.look().materials, *sheet, window, shot.settings.region, progress);
   } else {
     made = traced_picture(shot, shown, camera, progress, stopped);
   }

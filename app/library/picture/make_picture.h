@@ -23,7 +23,7 @@ struct MadePicture {
 
 /// The shot's picture from a camera, in its lights (picture_lights.h): by samples or until it is good enough, from those of --resume
 /// on, and without noise, as it says. Throws Error: usage, input_unreadable, failed, interrupted when `progress` says so and it is not
-/// kept; a picture that is traced until it is good enough never is.
+/// kept; a picture that is traced until it is good enough never is. For --xray the scene has its pools.
 [[nodiscard]] MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& camera,
                                        const Tracer::Progress& progress, Stopped stopped = Stopped::dropped);
 

@@ -47,7 +47,7 @@ SurfacePoint snapped(const Scene& scene, const Region& region, const GivenMeasur
 
 Measure take_measure(const Scene& scene, const Region& region, const GivenMeasure& given,
                      SceneOnDevice* shown) {
-  Measure measure{given.kind, {}};
+  Measure measure{given.kind, {}, {}, given.name};
   for (const GivenPlace& place : given.places) {
     assert(!place.direction || shown != nullptr);
     measure.points.push_back(place.direction ? first_hit(*shown, scene, region, place)

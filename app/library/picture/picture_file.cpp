@@ -70,7 +70,7 @@ void require_picture_memory(const Shot& shot) {
 void require_outputs_writable(const Request& request) {
   require_writable(request.output.path);
   if (!request.output.height_raster.empty()) require_writable(request.output.height_raster);
-  if (!request.output.measures.empty()) static_cast<void>(read_measures(request.output.measures));
+  if (!request.output.measures.empty()) static_cast<void>(read_measures(request.output.measures, ""));
   require_picture_writer(request.output.path);
   const bool drawn = request.view.sheet && !is_picture_format(request.output.path) &&
                      lower_extension(request.output.path) != ".dxf";

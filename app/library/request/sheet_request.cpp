@@ -46,15 +46,6 @@ double any_number(const std::string& key, const std::string& text) {
   return numbers[0];
 }
 
-double unit_of(const std::string& text) {
-  for (const LengthUnit& unit : LENGTH_UNITS)
-    if (text == unit.symbol) return unit.metres;
-  const auto numbers = split_numbers(text, ',', 1);
-  if (numbers.empty() || !(numbers[0] > 0.0))
-    throw Expected{"a unit of m, cm, mm, ft, us-ft or a number of metres"};
-  return numbers[0];
-}
-
 void read_key(const std::string& key, const std::string& text, SheetRequest& sheet) {
   constexpr double MOST_WEIGHT = 20.0, MOST_LENGTH = 1e30;
   if (key == "z" && sheet.kind == SheetKind::plan) {
@@ -67,14 +58,21 @@ void read_key(const std::string& key, const std::string& text, SheetRequest& she
     sheet.dpi = positive(key, text, MOST_SHEET_DPI);
   } else if (key == "weight") {
     sheet.weight_mm = text == "0" ? 0.0 : positive(key, text, MOST_WEIGHT);
+  } else if (key == "hatch") {
+    sheet.hatch_mm = text == "0" ? 0.0 : positive(key, text, MOST_WEIGHT);
+  } else if (key == "contours" && sheet.kind == SheetKind::plan) {
+    sheet.contours = positive(key, text, MOST_LENGTH);
+  } else if (key == "level") {
+    sheet.level = any_number(key, text);
   } else if (key == "unit") {
-    sheet.unit_metres = unit_of(text);
+    sheet.unit_metres = read_unit(text);
   } else if (key == "paper") {
     if (find_paper(text) == nullptr) throw Expected{"a paper of A4, A3, A2, A1 or A0"};
     sheet.paper = text;
   } else {
     throw Expected{
-        "keys depth, scale, dpi, weight, unit and paper, of a plan also z, and portrait or landscape"};
+        "keys depth, scale, dpi, weight, hatch, level, unit and paper, of a plan also z and contours, and "
+        "portrait or landscape"};
   }
 }
 
@@ -97,6 +95,15 @@ bool is_point(const SheetRequest& sheet) {
 }
 
 }  // namespace
+
+double read_unit(const std::string& text) {
+  for (const LengthUnit& unit : LENGTH_UNITS)
+    if (text == unit.symbol) return unit.metres;
+  const auto numbers = split_numbers(text, ',', 1);
+  if (numbers.empty() || !(numbers[0] > 0.0))
+    throw Expected{"a unit of m, cm, mm, ft, us-ft or a number of metres"};
+  return numbers[0];
+}
 
 SheetRequest read_sheet(const std::string& text) {
   const std::size_t colon = std::min(text.find(':'), text.size());
@@ -135,6 +142,9 @@ std::string sheet_text(const SheetRequest& sheet) {
   if (sheet.scale != plain.scale) add("scale=" + number_text(sheet.scale));
   if (sheet.dpi != plain.dpi) add("dpi=" + number_text(sheet.dpi));
   if (sheet.weight_mm != plain.weight_mm) add("weight=" + number_text(sheet.weight_mm));
+  if (sheet.hatch_mm != plain.hatch_mm) add("hatch=" + number_text(sheet.hatch_mm));
+  if (sheet.contours) add("contours=" + number_text(*sheet.contours));
+  if (sheet.level) add("level=" + number_text(*sheet.level));
   if (sheet.unit_metres) add("unit=" + number_text(*sheet.unit_metres));
   if (!sheet.paper.empty()) add("paper=" + sheet.paper);
   if (sheet.turn != PaperTurn::chosen) add(sheet.turn == PaperTurn::portrait ? PORTRAIT : LANDSCAPE);

@@ -29,12 +29,18 @@ struct SheetRequest {
   double scale = 50.0;                ///< 1 : scale
   double dpi = 300.0;                 ///< pixels an inch of paper
   double weight_mm = 0.35;            ///< width of the lines of what is cut, on paper; 0 = none
+  double hatch_mm = 1.5;              ///< between the lines that hatch what is cut, on paper; 0 = none
+  std::optional<double> contours;     ///< of a plan: heights between contour lines, world units, > 0
+  std::optional<double> level;        ///< height that is +0.00 in level marks, world units; unset: no marks
   std::optional<double> unit_metres;  ///< length of a world unit; unset = as the file says, else a metre
   std::string paper;  ///< of a page: a name of PAPER_SIZES; empty = the smallest that holds it
   PaperTurn turn = PaperTurn::chosen;
 
   bool operator==(const SheetRequest&) const = default;
 };
+
+/// Metres of the unit that a text names: m, cm, mm, ft, us-ft, or a number of metres above 0. Throws Expected.
+[[nodiscard]] double read_unit(const std::string& text);
 
 /// What --sheet takes: KIND[:VALUE,...], such as plan:z=1.2,depth=1.4,scale=50,dpi=300. Throws Expected.
 [[nodiscard]] SheetRequest read_sheet(const std::string& text);

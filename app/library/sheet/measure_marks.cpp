@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
 #include "app/library/sheet/page_style.h"
 #include "app/library/sheet/sheet_view.h"
 #include "app/library/sheet/text_block.h"
-#include "engine/base/length_unit.h"
 
 namespace splatray {
 namespace {
@@ -52,33 +52,38 @@ glm::dvec2 draw_marks(MeasureKind kind, const std::vector<glm::dvec2>& places, D
 
 }  // namespace
 
-std::vector<std::string> draw_measures(const Sheet& sheet, const PixelWindow& window,
-                                       std::span<const Measure> measures, Drawing& view) {
+MeasureFrame measure_frame(const Sheet& sheet) { return {sheet.up, sheet.crs, sheet.unit_metres}; }
+
+ShownMeasures draw_measures(const Sheet& sheet, const PixelWindow& window, std::span<const Measure> measures,
+                            Drawing& view) {
   const glm::dvec2 size = view.raster.size;
   const auto is_on = [&size](const glm::dvec2& at) {
     return at.x >= 0.0 && at.y >= 0.0 && at.x <= size.x && at.y <= size.y;
   };
-  std::vector<std::string> notes;
-  for (const Measure& measure : measures) {
+  const MeasureFrame frame = measure_frame(sheet);
+  ShownMeasures shown;
+  std::string without_room;
+  const std::vector<MeasureRow> rows = measure_rows(measures, frame);
+  for (std::size_t i = 0; i < measures.size(); ++i) {
     std::vector<glm::dvec2> places;
-    for (const SurfacePoint& point : measure.points)
+    for (const SurfacePoint& point : measures[i].points)
       places.push_back(in_window(sheet, window, sheet.on_paper(point.place)));
     if (places.empty() || !std::all_of(places.begin(), places.end(), is_on)) continue;
-    if (notes.empty()) {
-      const LengthUnit* unit = find_length_unit(sheet.unit_metres);
-      notes.push_back(std::string("Measures in ") + (unit != nullptr ? unit->symbol : "units of the file") +
-                      ", \u00B1 of 95 % intervals");
-    }
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(shown.rows),
+                 [i](const MeasureRow& row) { return row.id == i + 1; });
     for (glm::dvec2& at : places) at += view.raster.corner;
-    const glm::dvec2 middle = draw_marks(measure.kind, places, view);
-    const std::string text = short_text(measure, sheet.up);
-    if (const std::optional<DrawnText> value = placed(text, middle, view))
-      view.texts.push_back(*value);
+    const glm::dvec2 middle = draw_marks(measures[i].kind, places, view);
+    const std::string number = std::to_string(i + 1);
+    std::optional<DrawnText> text = placed(number + ": " + short_text(measures[i], frame), middle, view);
+    if (!text) text = placed(number, middle, view);
+    if (text)
+      view.texts.push_back(*text);
     else
-      notes.push_back(std::string(measure_name(measure.kind)) + " " + text +
-                      ", for which its place has no room");
+      without_room += (without_room.empty() ? "" : ", ") + number;
   }
-  return notes;
+  if (!without_room.empty())
+    shown.notes.push_back("No room at their places for the numbers of " + without_room);
+  return shown;
 }
 
 }  // namespace splatray

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "app/library/sheet/height_marks.h"
+#include "app/library/sheet/measure_table.h"
 #include "app/library/sheet/page_style.h"
 #include "app/library/sheet/sheet_view.h"
 #include "app/library/sheet/text_block.h"
 #include "engine/base/crs.h"
-#include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
 #include "engine/base/srgb.h"
 #include "engine/scene/splat.h"
@@ -25,6 +25,7 @@ constexpr double BAR_MOST = 60.0, BAR_HEIGHT = 1.6, BAR_BESIDE = 0.8;
 constexpr double NORTH_WIDTH = 5.0, NORTH_HEIGHT = 12.0, NORTH_HEAD = 4.0;
 constexpr double RAMP_MOST = 60.0, RAMP_HEIGHT = 3.0, SWATCH = 3.0, SWATCH_BESIDE = 1.5;
 constexpr int RAMP_BOXES = 60;
+constexpr double RAMP_TOLD_APART = 0.1;  ///< of a ramp's span
 
 /// A field of the title block.
 struct Cell {
@@ -96,14 +97,21 @@ Drawing north_block() {
   return block;
 }
 
-std::string six_digits(double value) {
-  std::array<char, 40> text{};
-  (void)std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
+/// The ends of a ramp, whose colours tell values apart to about a tenth of it, with their unit.
+std::array<std::string, 2> ramp_ends(const ColorLegend& legend, const std::string& unit) {
+  const double span = legend.high - legend.low;
+  std::array<std::string, 2> ends;
+  for (const std::size_t i : {0U, 1U}) {
+    const double value = i == 0 ? legend.low : legend.high;
+    ends.at(i) =
+        (span > 0.0 ? rounded_text(value, decimals_of(RAMP_TOLD_APART * span)) : number_text(value)) +
+        (unit.empty() ? "" : " " + unit);
+  }
+  return ends;
 }
 
-void add_ramp(const ColorLegend& legend, double width_mm, Drawing& block) {
-  const std::string low = six_digits(legend.low), high = six_digits(legend.high);
+void add_ramp(const ColorLegend& legend, const std::string& unit, double width_mm, Drawing& block) {
+  const auto [low, high] = ramp_ends(legend, unit);
   const double labels = text_width(low, LABEL_SIZE_MM) + text_width(high, LABEL_SIZE_MM) + KEY_GAP;
   const double width = std::max(std::min(RAMP_MOST, width_mm), labels), top = block.size.y;
   for (int i = 0; i < RAMP_BOXES; ++i) {
@@ -145,12 +153,10 @@ void add_categories(const ColorLegend& legend, double width_mm, Drawing& block) 
 Drawing legend_block(const Sheet& sheet, double width_mm) {
   const ColorLegend& legend = sheet.legend;
   const bool is_length = legend.title == "height" || legend.title == "distance" || legend.title == "change";
-  const LengthUnit* unit = find_length_unit(sheet.unit_metres);
   Drawing block;
-  block.size.y =
-      add_text(legend.title + (is_length && unit != nullptr ? std::string(", ") + unit->symbol : ""),
-               TEXT_SIZE_MM, width_mm, {0.0, 0.0}, block);
-  if (!legend.ramp.empty()) add_ramp(legend, width_mm, block);
+  block.size.y = add_text(legend.title, TEXT_SIZE_MM, width_mm, {0.0, 0.0}, block);
+  if (!legend.ramp.empty())
+    add_ramp(legend, is_length ? length_symbol(sheet.unit_metres) : std::string(), width_mm, block);
   if (!legend.categories.empty()) add_categories(legend, width_mm, block);
   return block;
 }
@@ -180,7 +186,8 @@ Drawing title_block(const PageWords& words, const Sheet& sheet, const std::strin
   return table;
 }
 
-Drawing key_block(const Sheet& sheet, const std::vector<std::string>& notes, double width_mm) {
+Drawing key_block(const Sheet& sheet, const ShownMeasures& measures, const std::vector<std::string>& notes,
+                  double width_mm) {
   Drawing block;
   block.size.x = width_mm;
   double left = 0.0;
@@ -197,6 +204,12 @@ Drawing key_block(const Sheet& sheet, const std::vector<std::string>& notes, dou
   block.size.y = row + 0.5 * KEY_GAP;
   for (const std::string& note : notes)
     block.size.y += add_text(note, TEXT_SIZE_MM, width_mm, {0.0, block.size.y}, block);
+  for (const std::string& note : measures.notes)
+    block.size.y += add_text(note, TEXT_SIZE_MM, width_mm, {0.0, block.size.y}, block);
+  if (const Drawing table = measure_table(measures.rows, width_mm); table.size.y > 0.0) {
+    block.size = glm::max(block.size, glm::dvec2(table.size.x, 0.0)) + glm::dvec2(0.0, 0.25 * KEY_GAP);
+    block.size.y += add_below(table, 0.0);
+  }
   if (sheet.legend.title.empty()) return block;
   block.size.y += 0.5 * KEY_GAP;
   block.size.y += add_below(legend_block(sheet, width_mm), 0.0);
@@ -214,6 +227,13 @@ std::vector<std::string> sheet_notes(const Sheet& sheet) {
   if (sheet.asked.depth) subject += ", " + length_text(sheet, *sheet.asked.depth) + " deep";
   std::vector<std::string> notes = {subject, "A pixel is " + length_text(sheet, sheet.pixel_world) + ", " +
                                                  number_text(sheet.asked.dpi) + " dpi"};
+  if (sheet.asked.level) {
+    std::string levels = "Levels from +0.00 at height " + length_text(sheet, *sheet.asked.level);
+    for (std::size_t i = 0; i < sheet.levels.size(); ++i)
+      levels += (i == 0 ? ": " : ", ") + level_text(sheet, sheet.levels[i]);
+    notes.push_back(levels);
+  }
+  if (sheet.asked.contours) notes.push_back("Contours every " + length_text(sheet, *sheet.asked.contours));
   if (!sheet.unit_known) notes.emplace_back("The file names no unit; its coordinates are taken for metres");
   return notes;
 }

@@ -6,6 +6,7 @@
 
 #include "app/library/codec/drawing.h"
 #include "app/library/request/title_block.h"
+#include "app/library/sheet/measure_marks.h"
 #include "app/library/shot/sheet.h"
 
 namespace splatray {
@@ -21,8 +22,10 @@ struct PageWords {
 [[nodiscard]] Drawing title_block(const PageWords& words, const Sheet& sheet, const std::string& paper,
                                   double width_mm);
 
-/// Bar of lengths, north where the paper has it, notes one below the other, and what the colours mean.
-[[nodiscard]] Drawing key_block(const Sheet& sheet, const std::vector<std::string>& notes, double width_mm);
+/// Bar of lengths, north where the paper has it, notes one below the other, the table of measures, and what the colours mean. Wider than
+/// it is given room for where the table's numbers need that.
+[[nodiscard]] Drawing key_block(const Sheet& sheet, const ShownMeasures& measures,
+                                const std::vector<std::string>& notes, double width_mm);
 
 /// "1 : 50".
 [[nodiscard]] std::string scale_text(const Sheet& sheet);

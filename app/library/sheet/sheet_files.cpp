@@ -74,7 +74,7 @@ PageText page_text(const Shot& shot) {
   const std::vector<std::filesystem::path>& inputs = shot.request.source.inputs;
   PageText text{{output.title, output.title_block}, {}};
   if (text.words.title.empty() && !inputs.empty()) text.words.title = path_text(inputs.front().stem());
-  if (!output.measures.empty()) text.measures = read_measures(output.measures);
+  if (!output.measures.empty()) text.measures = read_measures(output.measures, shot.sheet()->crs);
   return text;
 }
 
@@ -122,9 +122,11 @@ void require_sheet_writer() { static_cast<void>(sheet_codec()); }
 void require_page(const Shot& shot) {
   const std::string extension = lower_extension(shot.request.output.path);
   if (extension == ".svg" || extension == ".pdf") static_cast<void>(page_of(shot));
-  if (extension == ".dxf" && shot.sheet()->cut_curves.empty() && shot.request.output.measures.empty())
-    throw Error(ExitCode::usage, "the sheet '" + shot.request.output.path.string() +
-                                     "' cuts nothing, expected a section or plan:z=HEIGHT through a surface");
+  if (extension == ".dxf" && shot.sheet()->cut_curves.empty() && shot.sheet()->contours.empty() &&
+      shot.request.output.measures.empty())
+    throw Error(ExitCode::usage,
+                "the sheet '" + shot.request.output.path.string() +
+                    "' cuts nothing, expected a section or plan:z=HEIGHT through a surface, or contours=");
 }
 
 Bytes encode_sheet(const Shot& shot, const DisplayImage& picture, const Metadata& metadata,

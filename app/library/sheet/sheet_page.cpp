@@ -29,15 +29,19 @@ struct Content {
   const Sheet& sheet;
   const PageWords& words;
   Drawing view;
-  std::vector<std::string> notes;
+  ShownMeasures measures;
 };
 
 /// What stands below the drawing, as wide as the frame: the key to the left of the title block, or above it where that takes all.
 Drawing foot_block(const Content& content, const std::string& paper, double width) {
   const Drawing title = title_block(content.words, content.sheet, paper, TITLE_WIDTH);
-  const bool beside = width >= TITLE_WIDTH + KEY_LEAST + 2.0 * AROUND;
-  const Drawing key =
-      key_block(content.sheet, content.notes, (beside ? width - TITLE_WIDTH : width) - 2.0 * AROUND);
+  const double room = width - 2.0 * AROUND, room_beside = room - TITLE_WIDTH;
+  const auto key_in = [&content](double mm) {
+    return key_block(content.sheet, content.measures, sheet_notes(content.sheet), mm);
+  };
+  Drawing key = key_in(std::max(room_beside, KEY_LEAST));
+  const bool beside = key.size.x <= room_beside;
+  if (!beside) key = key_in(room);
   Drawing foot;
   foot.size = {width,
                beside ? std::max(title.size.y, key.size.y + AROUND) : title.size.y + key.size.y + AROUND};
@@ -116,9 +120,8 @@ std::vector<std::uint8_t> rgba_bytes(const DisplayImage& picture) {
 
 Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const PageWords& words,
                    std::span<const Measure> measures) {
-  Content content{sheet, words, sheet_view(sheet, window), sheet_notes(sheet)};
-  for (const std::string& note : draw_measures(sheet, window, measures, content.view))
-    content.notes.push_back(note);
+  Content content{sheet, words, sheet_view(sheet, window), {}};
+  content.measures = draw_measures(sheet, window, measures, content.view);
   const Paper paper = chosen_paper(content);
   const glm::dvec2 low(BINDING, MARGIN), high = low + paper.frame();
   const Drawing foot = foot_block(content, paper.name, high.x - low.x);

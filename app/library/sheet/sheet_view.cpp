@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "app/library/measure/measure_words.h"
+#include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/page_style.h"
 #include "app/library/sheet/text_block.h"
-#include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
 
 namespace splatray {
@@ -17,14 +17,6 @@ namespace {
 // Millimetres.
 constexpr double TICK = 2.0, GRID_LEAST = 30.0, CROSS = 1.5, BESIDE = 0.6;
 constexpr double BEHIND = 3.0;  ///< room to the right and below
-
-std::string fixed(double value, int digits) {
-  const double step = std::pow(10.0, -digits);
-  if (std::abs(value) < 0.5 * step) value = 0.0;  // not -0
-  std::array<char, 400> text{};
-  (void)std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
 
 /// Where a line of the grid lies on the paper, from the window's corner, and its coordinate.
 struct GridLine {
@@ -41,7 +33,7 @@ std::vector<GridLine> grid_lines(double first, double way, double length_mm, dou
   for (double i = 0.0;; ++i) {
     const double value = (begin + way * i) * step, at = way * (value - first) * mm_per_world;
     if (at > length_mm) return lines;
-    lines.push_back({at, fixed(value, digits)});
+    lines.push_back({at, rounded_text(value, digits)});
   }
 }
 
@@ -97,7 +89,8 @@ double grid_step(const Sheet& sheet, const std::array<double, 4>& ends) {
   const auto widest = [&] {
     const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
     double width = 0.0;
-    for (const double end : ends) width = std::max(width, text_width(fixed(end, digits), LABEL_SIZE_MM));
+    for (const double end : ends)
+      width = std::max(width, text_width(rounded_text(end, digits), LABEL_SIZE_MM));
     return width;
   };
   while (widest() + 2.0 * LABEL_SIZE_MM > step / sheet.mm_world())
@@ -123,6 +116,11 @@ void add_cut(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
       path.points.push_back(view.raster.corner + in_window(sheet, window, point));
     view.paths.push_back(std::move(path));
   }
+  for (const auto& [from, to] : sheet.hatch)
+    view.paths.push_back({{view.raster.corner + in_window(sheet, window, from),
+                           view.raster.corner + in_window(sheet, window, to)},
+                          false,
+                          FINE_LINE_MM});
 }
 
 }  // namespace
@@ -141,8 +139,7 @@ double round_length(double length, Rounding way) {
 }
 
 std::string length_text(const Sheet& sheet, double world) {
-  const LengthUnit* unit = find_length_unit(sheet.unit_metres);
-  return number_text(std::round(world * 1e6) / 1e6) + " " + (unit != nullptr ? unit->symbol : "units");
+  return number_text(std::round(world * 1e6) / 1e6) + " " + length_symbol(sheet.unit_metres);
 }
 
 glm::dvec2 in_window(const Sheet& sheet, const PixelWindow& window, const glm::dvec2& place) {
@@ -158,6 +155,8 @@ Drawing sheet_view(const Sheet& sheet, const PixelWindow& window) {
   add_cut(sheet, window, view);
   add_frame(view);
   add_grid(sheet, window, view);
+  draw_contours(sheet, window, view);
+  draw_levels(sheet, window, view);
   return view;
 }
 

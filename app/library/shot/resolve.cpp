@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* ORIENTATION = "orientation";
 /// Stops that make up for what LOOK_SCAN keeps for lights (SCAN_SKY in transport.glsl).
-constexpr double SKY_EXPOSURE_EV = 0.415;
+constexpr double SKY_EXPOSURE_EV = 0.331;
 
 void note(Shot& shot, const std::string& field, const std::string& text) {
   shot.choices.push_back({field, text});

@@ -1,10 +1,11 @@
 /// A sheet of a scene: which rectangle of which plane it shows, in pixels that are exactly so large.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
 #include "app/library/attributes.h"
-#include "app/library/cut/plane_cut.h"
+#include "app/library/cut/contours.h"
 #include "app/library/request/request.h"
 #include "engine/scene/scene.h"
 
@@ -30,7 +31,10 @@ struct Sheet {
   glm::dvec3 up{0.0, 0.0, 1.0};         ///< of the scene
   std::string crs;                      ///< Scene::crs
   std::vector<CutCurve> cut_curves;     ///< what is cut
-  ColorLegend legend;  ///< of the colours shown; without a title, nothing is to be said of them
+  std::vector<std::array<glm::dvec2, 2>> hatch;  ///< lines between the backs of these, along right and top
+  std::vector<Contour> contours;                 ///< along right and top
+  std::vector<double> levels;  ///< heights of level marks, ascending, world units along `up`
+  ColorLegend legend;          ///< of the colours shown; without a title, nothing is to be said of them
 
   /// Orthographic, of the whole sheet.
   [[nodiscard]] Camera camera() const;

@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "app/library/cut/cut_hatch.h"
+#include "app/library/cut/cut_join.h"
+#include "app/library/cut/floor_levels.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
@@ -19,6 +22,16 @@ constexpr double METRE_MM = 1000.0;
 constexpr double MARGIN_MM = 4.0;
 /// How far a straight part of a cut's line may be from the curve: a tenth of what is seen.
 constexpr double CUT_TOLERANCE_MM = 0.005;
+/// Hatching behind a surface whose back was not seen, on paper.
+constexpr double STUB_MM = 2.0;
+/// What is thicker between two surfaces is not taken for one wall.
+constexpr double THICKEST_WALL_METRES = 1.5;
+// Contours: cells of their heights on paper and how many at most, the deviation that smooths these, what is too short to say anything, and
+// how far a straight part may be from the line.
+constexpr double CONTOUR_CELL_MM = 0.5, CONTOUR_CELLS_MOST = 4e6, CONTOUR_SMOOTH_CELLS = 1.5;
+constexpr double CONTOUR_LEAST_MM = 8.0, CONTOUR_TOLERANCE_MM = 0.05, CONTOUR_LEVELS_MOST = 1000.0;
+/// Heights within a cell, in its sides, that are of one surface: a slope of 70 degrees is none of the ground's.
+constexpr double CONTOUR_STEP = 2.75;
 /// Pixels of a side that rays are numbered by.
 constexpr double MOST_PIXELS = 1U << 20U;
 /// Pixels of a sheet whatever is drawn on it: A2 at 300 dpi, about a minute of two cores for each sample.
@@ -159,6 +172,49 @@ void set_pixels(const PointSample& shown, std::size_t splats, Sheet& sheet) {
   sheet.height = std::max(static_cast<std::uint32_t>(height), 1U);
 }
 
+CutPlane cut_plane(const Sheet& sheet) { return {sheet.right, sheet.top, sheet.toward, sheet.near}; }
+
+/// Cells of the raster that contours come from: half a millimetre of paper, larger where they would be too many.
+HeightRaster raster_of(const Sheet& sheet) {
+  const double width = sheet.width * sheet.pixel_world, height = sheet.height * sheet.pixel_world;
+  const double cell =
+      std::max(CONTOUR_CELL_MM * sheet.mm_world(), std::sqrt(width * height / CONTOUR_CELLS_MOST));
+  return {sheet.corner,
+          cell,
+          static_cast<std::uint32_t>(std::ceil(width / cell)),
+          static_cast<std::uint32_t>(std::ceil(height / cell)),
+          {}};
+}
+
+/// Throws Error (usage) where there would be too many.
+std::vector<Contour> sheet_contours(const Scene& scene, const Region& region, const Sheet& sheet) {
+  const double interval = *sheet.asked.contours;
+  HeightRaster raster = raster_of(sheet);
+  fill_heights(scene, region, cut_plane(sheet), raster);
+  const double step = CONTOUR_STEP * raster.cell;
+  smooth_heights(CONTOUR_SMOOTH_CELLS, step, raster);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : raster.values)
+    if (!std::isnan(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  if ((high - low) / interval > CONTOUR_LEVELS_MOST)
+    throw Error(ExitCode::usage, "found contours=" + number_text(interval) + " for heights from " +
+                                     short_number(low) + " to " + short_number(high) + ", expected at most " +
+                                     number_text(CONTOUR_LEVELS_MOST) + " contours one above the other");
+  std::vector<Contour> contours;
+  for (Contour& contour : contours_of(raster, interval, step)) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < contour.curve.points.size(); ++i)
+      length += glm::distance(contour.curve.points[i - 1], contour.curve.points[i]);
+    if (length < CONTOUR_LEAST_MM * sheet.mm_world()) continue;
+    contour.curve = simplified(contour.curve, CONTOUR_TOLERANCE_MM * sheet.mm_world());
+    contours.push_back(std::move(contour));
+  }
+  return contours;
+}
+
 }  // namespace
 
 Sheet make_sheet(const Scene& scene, const Request& request) {
@@ -182,8 +238,14 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
                                      "; expected a cut that leaves some");
   set_pixels(shown, splat_count(scene), sheet);
   if (sheet.cuts && sheet.asked.weight_mm > 0.0)
-    sheet.cut_curves = plane_cut(scene, asked_region, {sheet.right, sheet.top, sheet.toward, sheet.near},
-                                 CUT_TOLERANCE_MM * sheet.mm_world());
+    sheet.cut_curves = plane_cut(scene, asked_region, cut_plane(sheet), CUT_TOLERANCE_MM * sheet.mm_world());
+  if (sheet.asked.hatch_mm > 0.0)
+    sheet.hatch =
+        cut_hatch(sheet.cut_curves, {sheet.asked.hatch_mm * sheet.mm_world(), STUB_MM * sheet.mm_world(),
+                                     THICKEST_WALL_METRES / sheet.unit_metres});
+  if (sheet.asked.contours) sheet.contours = sheet_contours(scene, region, sheet);
+  if (sheet.asked.level)
+    sheet.levels = floor_levels(scene, region, glm::normalize(sheet.up), sheet.unit_metres);
   return sheet;
 }
 

@@ -208,12 +208,12 @@ class Scene:
         core = self._open_core()
         return core.occluded(*_rays(origins, directions, t_max), _check.progress(progress))
 
-    def measure(self, kind: Literal["point", "distance", "height", "angle", "area", "sphere", "cylinder"], places: Sequence[Any], *,
+    def measure(self, kind: Literal["point", "distance", "horizontal", "vertical", "angle", "area", "sphere", "cylinder"], places: Sequence[Any], *,
                 reach: float = 0.0, request: Optional[Request] = None, progress: Optional[_check.Progress] = None) -> Measure:
         """Measures on the surface, as splatray-measure does: each value with its interval.
 
         places: each (x, y, z), which goes to the nearest surface, or ((x, y, z), (dx, dy, dz)), a ray, whose first hit counts: one, two and
-        more, two, three, or three and more of them. reach: of spheres and cylinders, how far around the place, world units. request: its
+        more, two, two, three, or three and more of them. reach: of spheres and cylinders, how far around the place, world units. request: its
         region (keep_box, drop_box, cut).
         """
         core = self._open_core()

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/library/measure/measure.h"
+#include "app/library/measure/measure_words.h"
 #include "app/library/request/request.h"
 #include "app/library/shot/scene_facts.h"
 #include "engine/image/view.h"
@@ -59,6 +59,10 @@ struct Document {
 /// The scene's up axis: of orbits, framing and the environment.
 [[nodiscard]] inline glm::dvec3 up_of(const Document& document) {
   return document.request.look.up.value_or(glm::dvec3(0.0, 1.0, 0.0));
+}
+/// What the document's measures share.
+[[nodiscard]] inline MeasureFrame measure_frame(const Document& document) {
+  return {up_of(document), document.loaded ? document.loaded->crs : std::string()};
 }
 /// LOOK_*.
 [[nodiscard]] inline std::uint32_t look_of(const Document& document) {

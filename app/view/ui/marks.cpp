@@ -108,7 +108,8 @@ void measure_marks(const Document& document, Marks& marks) {
       marks.line(places.back(), places.front(), MEASURE);
     for (const glm::dvec3& place : places) marks.dot(place, MEASURE, 0.9F * DOT_EM);
     const bool at_corner = measure.kind == MeasureKind::angle;
-    marks.text(at_corner ? places[places.size() / 2] : places.back(), short_text(measure, up_of(document)));
+    marks.text(at_corner ? places[places.size() / 2] : places.back(),
+               labelled_text(measure, measure_frame(document)));
   }
 }
 

@@ -25,8 +25,7 @@ void save_control(const Document& document, PanelState& state) {
   ImGui::InputText("file##measures", &state.measures_path);
   tip(".geojson, .dxf or .csv");
   if (!ImGui::SmallButton("save all")) return;
-  const MeasureFrame frame{up_of(document), document.loaded->crs};
-  const auto write = [&] { write_measures(document.measures, frame, state.measures_path); };
+  const auto write = [&] { write_measures(document.measures, measure_frame(document), state.measures_path); };
   if (const std::optional<Failure> failure = attempt("writing " + state.measures_path, write))
     state.error = failure->sentence;
   else
@@ -34,12 +33,13 @@ void save_control(const Document& document, PanelState& state) {
 }
 
 /// Returns whether it is to be removed.
-bool measure_facts(const Measure& measure, const glm::dvec3& up) {
-  const std::vector<MeasureValue> values = values_of(measure, up);
+bool measure_facts(const MeasureFrame& frame, Measure& measure) {
+  const std::vector<MeasureValue> values = values_of(measure, frame.up);
   if (values.empty())
     ImGui::TextDisabled("%s: %zu of %zu points", measure_name(measure.kind), measure.points.size(),
                         points_needed(measure.kind));
-  for (const MeasureValue& value : values) fact(value.name.c_str(), value_text(value));
+  for (const MeasureValue& value : values) fact(value.name.c_str(), value_text(value, unit_metres(frame)));
+  ImGui::InputText("name", &measure.name);
   return ImGui::SmallButton("remove");
 }
 
@@ -49,7 +49,7 @@ void measure_panel(Document& document, PanelState& state) {
   kind_buttons(state);
   if (document.measures.empty()) return;
   if (ImGui::SmallButton("copy all")) {
-    ImGui::SetClipboardText(table_of(document.measures, up_of(document)).c_str());
+    ImGui::SetClipboardText(table_of(document.measures, measure_frame(document)).c_str());
     state.notice = "copied the measures: values and points, with tabs between";
   }
   ImGui::SameLine();
@@ -58,7 +58,7 @@ void measure_panel(Document& document, PanelState& state) {
   for (std::size_t i = 0; i < document.measures.size(); ++i) {
     ImGui::Separator();
     ImGui::PushID(static_cast<int>(i));
-    const bool gone = measure_facts(document.measures[i], up_of(document));
+    const bool gone = measure_facts(measure_frame(document), document.measures[i]);
     ImGui::PopID();
     if (!gone) continue;
     document.measures.erase(document.measures.begin() + static_cast<std::ptrdiff_t>(i));

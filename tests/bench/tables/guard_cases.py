@@ -166,7 +166,7 @@ def distances(programs, scene, pairs):
     if code != 0:
         return [found for pair in pairs for found in distances(programs, scene, [pair])] if len(pairs) > 1 else []
     with open(table) as file:
-        return [(float(row["value"]), float(row["within_95"])) for row in csv.DictReader(file) if row["name"] == "distance"]
+        return [(float(row["value"]), float(row["within_95"])) for row in csv.DictReader(file) if row["quantity"] == "distance"]
 
 
 def thickness_figures(programs, scene, millimetres):

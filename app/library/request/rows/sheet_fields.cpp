@@ -21,6 +21,8 @@ Field sheet_row() {
       "left; elevation:north|east|south|west|DEGREES, from that side; ortho:DX,DY,DZ, in that direction; "
       "with "
       "depth=D behind the cut, scale=50 for 1:50, dpi=300, weight=0.35 for the cut's lines in mm, "
+      "hatch=1.5 for the hatching of what is cut in mm, contours=INTERVAL of heights in a plan, "
+      "level=Z for marks of floors and ceilings that count from that height, "
       "unit=m|cm|mm|ft|us-ft "
       "where the file does not say, of a page paper=A4|A3|A2|A1|A0 and portrait or landscape, by default the "
       "smallest that holds the drawing; a pixel is 25.4 mm / dpi x scale; a region limits it",
@@ -37,9 +39,9 @@ std::vector<Field> sheet_fields() {
       not_in_panels(needed(sheet_row(), "a plan, section or elevation to scale")),
       not_in_panels(switch_row("ink", SHEET, MEMBER(view.ink),
                                "of a sheet: lines where depth, direction or object change")),
-      not_in_panels(switch_row(
-          "xray", SHEET, MEMBER(view.xray),
-          "of a sheet: how many splats lie one behind the other, by the logarithm, dark for many")),
+      not_in_panels(switch_row("xray", SHEET, MEMBER(view.xray),
+                               "of a sheet: how much surface lies one behind the other, by the logarithm: "
+                               "walls seen along them are dark")),
       not_in_panels(value_row(
           "title", SHEET, "TEXT",
           "of a sheet as .svg or .pdf: the title in its title block; default the input's name",
