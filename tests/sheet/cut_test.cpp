@@ -189,7 +189,6 @@ TEST(PlaneCut, IsThreeClosedCurvesWithCorners) {
     double least = 1.0;
     for (const CutCurve& curve : plan())
       for (const glm::dvec2& point : curve.points) least = std::min(least, glm::distance(point, wall.from));
-    std::printf("corner %.2f, %.2f: %.2f mm\n", wall.from.x, wall.from.y, 1e3 * least);
     EXPECT_LT(least, 0.003) << wall.from.x << ", " << wall.from.y;
   }
 }

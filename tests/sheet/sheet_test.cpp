@@ -229,6 +229,35 @@ TEST(Ink, IsWhereDepthStepsAndNotOnSlopes) {
   }
 }
 
+TEST(Ink, IsNotBesideWhatIsCut) {
+  Sheet sheet;
+  sheet.asked.dpi = 100.0;
+  sheet.corner = {0.0, 8.0};
+  sheet.cut_curves = {{{glm::dvec2(7.5, 0.0), glm::dvec2(7.5, 4.0)}, false, 1.5}};
+  Image image = slope(3.0F, 20.0F);
+  const PixelWindow all{0, 0, 16, 8};
+  draw_ink(sheet, {all, image.aov}, all, image);
+  EXPECT_EQ(image.rgba[7].x, 0.0F) << "far from the cut";
+  EXPECT_EQ(image.rgba[7 * 16 + 7].x, 1.0F) << "beside it";
+}
+
+TEST(CutLines, ClearWhatIsSolid) {
+  Sheet sheet;
+  sheet.corner = {0.0, 10.0};
+  sheet.width = sheet.height = 10;
+  sheet.thickest_world = 6.0;
+  // A pillar, its front outside.
+  sheet.cut_curves = {{{{2.0, 2.0}, {2.0, 7.0}, {6.0, 7.0}, {6.0, 2.0}}, true}};
+  const auto cleared = [&] {
+    Image image{10, 10, std::vector<vec4>(100, vec4(1.0F)), {}};
+    clear_solids(sheet, {0, 0, 10, 10}, image);
+    return std::count(image.rgba.begin(), image.rgba.end(), vec4(0.0F));
+  };
+  EXPECT_EQ(cleared(), 20);
+  std::reverse(sheet.cut_curves[0].points.begin(), sheet.cut_curves[0].points.end());
+  EXPECT_EQ(cleared(), 0) << "a room";
+}
+
 TEST(Ink, OfAPartIsThatOfTheWhole) {
   Sheet sheet;
   sheet.asked.dpi = 600.0;  // lines of several pixels

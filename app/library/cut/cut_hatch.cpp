@@ -7,8 +7,12 @@
 namespace splatray {
 namespace {
 
-const glm::dvec2 ALONG_LINES = glm::normalize(glm::dvec2(1.0, 1.0));
-const glm::dvec2 ACROSS_LINES(-ALONG_LINES.y, ALONG_LINES.x);
+/// Unit vectors along the lines and across them, to their left.
+struct LineAxes {
+  explicit LineAxes(const HatchStyle& style)
+      : along(glm::normalize(style.along)), across(-along.y, along.x) {}
+  glm::dvec2 along, across;
+};
 
 /// Where a line of the hatch crosses a curve.
 struct Crossing {
@@ -26,21 +30,26 @@ double length_of(const CutCurve& curve) {
 }
 
 /// Each line crosses a segment from its lower end up to its upper one, without that, so that curves are crossed once at their corners.
-void cross(const glm::dvec2& from, const glm::dvec2& to, double spacing, Crossings& crossings) {
-  const double begin = glm::dot(from, ACROSS_LINES) / spacing, end = glm::dot(to, ACROSS_LINES) / spacing;
+void cross(const glm::dvec2& from, const glm::dvec2& to, const LineAxes& axes, double spacing,
+           Crossings& crossings) {
+  const double begin = glm::dot(from, axes.across) / spacing, end = glm::dot(to, axes.across) / spacing;
   if (begin == end) return;
   const auto first = static_cast<std::int64_t>(std::ceil(std::min(begin, end)));
   for (std::int64_t line = first; static_cast<double>(line) < std::max(begin, end); ++line) {
     const double part = (static_cast<double>(line) - begin) / (end - begin);
     // A curve that goes on to higher numbers has its left, which is its front, before it along the line.
-    crossings[line].push_back({glm::dot(glm::mix(from, to, part), ALONG_LINES), end < begin});
+    crossings[line].push_back({glm::dot(glm::mix(from, to, part), axes.along), end < begin});
   }
 }
 
 class HatchLine {
  public:
-  HatchLine(std::int64_t number, const HatchStyle& style, std::vector<std::array<glm::dvec2, 2>>& lines)
-      : across_(static_cast<double>(number) * style.spacing * ACROSS_LINES), style_(style), lines_(lines) {}
+  HatchLine(std::int64_t number, const LineAxes& axes, const HatchStyle& style,
+            std::vector<std::array<glm::dvec2, 2>>& lines)
+      : along_(axes.along),
+        across_(static_cast<double>(number) * style.spacing * axes.across),
+        style_(style),
+        lines_(lines) {}
 
   void add_all(const std::vector<Crossing>& crossings) {
     if (crossings.front().is_back_before) add(crossings.front().at - style_.stub, crossings.front().at);
@@ -57,10 +66,11 @@ class HatchLine {
     if (to_back) add(second.at - stub, second.at);
   }
   void add(double from, double to) {
-    lines_.push_back({across_ + from * ALONG_LINES, across_ + to * ALONG_LINES});
+    if (!(to > from)) return;
+    lines_.push_back({across_ + from * along_, across_ + to * along_});
   }
 
-  glm::dvec2 across_;
+  glm::dvec2 along_, across_;
   const HatchStyle& style_;
   std::vector<std::array<glm::dvec2, 2>>& lines_;
 };
@@ -68,17 +78,18 @@ class HatchLine {
 }  // namespace
 
 std::vector<std::array<glm::dvec2, 2>> cut_hatch(std::span<const CutCurve> curves, const HatchStyle& style) {
+  const LineAxes axes(style);
   Crossings crossings;
   for (const CutCurve& curve : curves) {
     const std::size_t count = curve.points.size();
     if (!curve.closed && length_of(curve) < style.thickest) continue;
     for (std::size_t i = curve.closed ? 0 : 1; i < count; ++i)
-      cross(curve.points[(i + count - 1) % count], curve.points[i], style.spacing, crossings);
+      cross(curve.points[(i + count - 1) % count], curve.points[i], axes, style.spacing, crossings);
   }
   std::vector<std::array<glm::dvec2, 2>> lines;
   for (auto& [number, line] : crossings) {
     std::sort(line.begin(), line.end(), [](const Crossing& a, const Crossing& b) { return a.at < b.at; });
-    HatchLine(number, style, lines).add_all(line);
+    HatchLine(number, axes, style, lines).add_all(line);
   }
   return lines;
 }

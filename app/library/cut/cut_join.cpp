@@ -225,6 +225,7 @@ CutCurve chain_from(std::size_t start, const std::vector<TracedCurve>& curves, c
     if (next && next->corners) to = (*next->corners)[turned ? 1 : 0];
     const std::vector<glm::dvec2> places =
         trimmed(curves, end, from, to, {before ? before->dropped : 0.0, next ? next->dropped : 0.0});
+    for (const CutPoint& point : curves[end / 2].points) chain.radius = std::max(chain.radius, point.radius);
     front_left += (end_of(end).is_last ? -1.0 : 1.0) * length_of(places);
     chain.points.insert(chain.points.end(), places.begin(), places.end());
     if (to) chain.points.push_back(*to);
@@ -303,7 +304,7 @@ CutCurve simplified(const CutCurve& curve, double tolerance) {
     mark_kept(points, 0, middle, tolerance, is_kept);
   }
   mark_kept(points, middle, points.size() - 1, tolerance, is_kept);
-  CutCurve simple{{}, curve.closed};
+  CutCurve simple{{}, curve.closed, curve.radius};
   for (std::size_t i = 0; i + (curve.closed ? 1 : 0) < points.size(); ++i)
     if (is_kept[i]) simple.points.push_back(points[i]);
   return simple;

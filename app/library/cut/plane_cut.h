@@ -22,6 +22,7 @@ struct CutPlane {
 struct CutCurve {
   std::vector<glm::dvec2> points;
   bool closed = false;  ///< the last point goes on to the first
+  double radius = 0.0;  ///< of the largest splats that it follows from; 0 = of none
 };
 
 /// The curves, joined where they meet at corners and straight to the tolerance (world units, > 0) where they are nearly. Of what lies

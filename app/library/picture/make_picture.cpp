@@ -97,6 +97,7 @@ MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& c
   }
   if (made.samples_missing > 0) return made;
   if (shot.request.view.ink) draw_lines(shot, *sheet, shown, window, made.image);
+  clear_solids(*sheet, window, made.image);
   if (!is_line_format(shot.request.output.path)) draw_cut(*sheet, window, made.image);
   return made;
 }

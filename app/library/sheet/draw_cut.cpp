@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/library/cut/cut_hatch.h"
 #include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/page_style.h"
 
 namespace splatray {
 namespace {
+
+/// Radii of a disc that it reaches over a line at most, where the cut follows from it.
+constexpr double OVERHANG = 1.25;
 
 /// A straight part of a line, pixels of the window.
 struct Segment {
@@ -40,8 +44,8 @@ std::vector<Segment> segments_of(const Sheet& sheet, const PixelWindow& window) 
 }
 
 /// Keeps in `covered` what the segment covers of each pixel, 0 to 1.
-void cover(const Segment& segment, const Image& image, std::vector<float>& covered) {
-  const glm::dvec2 size(image.width, image.height), reach(segment.half_width + 1.0);
+void cover(const Segment& segment, const PixelWindow& window, std::vector<float>& covered) {
+  const glm::dvec2 size(window.width, window.height), reach(segment.half_width + 1.0);
   const glm::dvec2 low =
       glm::clamp(glm::floor(glm::min(segment.from, segment.to) - reach), glm::dvec2(0.0), size);
   const glm::dvec2 high =
@@ -50,7 +54,7 @@ void cover(const Segment& segment, const Image& image, std::vector<float>& cover
     for (auto x = static_cast<std::size_t>(low.x); x < static_cast<std::size_t>(high.x); ++x) {
       const glm::dvec2 center(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
       const double share = std::clamp(segment.half_width + 0.5 - segment.distance(center), 0.0, 1.0);
-      float& most = covered[y * image.width + x];
+      float& most = covered[y * window.width + x];
       most = std::max(most, static_cast<float>(share));
     }
 }
@@ -60,9 +64,37 @@ void cover(const Segment& segment, const Image& image, std::vector<float>& cover
 void draw_cut(const Sheet& sheet, const PixelWindow& window, Image& image) {
   if (sheet.cut_curves.empty() && sheet.contours.empty()) return;
   std::vector<float> covered(image.rgba.size(), 0.0F);
-  for (const Segment& segment : segments_of(sheet, window)) cover(segment, image, covered);
+  for (const Segment& segment : segments_of(sheet, window)) cover(segment, window, covered);
   for (std::size_t i = 0; i < covered.size(); ++i)
     image.rgba[i] = vec4(0.0F, 0.0F, 0.0F, covered[i]) + (1.0F - covered[i]) * image.rgba[i];
+}
+
+std::vector<float> beside_cut(const Sheet& sheet, const PixelWindow& window) {
+  const glm::dvec2 first(window.x, window.y);
+  std::vector<float> covered(std::size_t{window.width} * window.height, 0.0F);
+  for (const CutCurve& curve : sheet.cut_curves) {
+    const std::size_t count = curve.points.size();
+    for (std::size_t i = curve.closed ? 0 : 1; i < count; ++i)
+      cover({sheet.pixel_of(curve.points[(i + count - 1) % count]) - first,
+             sheet.pixel_of(curve.points[i]) - first, OVERHANG * curve.radius / sheet.pixel_world},
+            window, covered);
+  }
+  return covered;
+}
+
+void clear_solids(const Sheet& sheet, const PixelWindow& window, Image& image) {
+  const HatchStyle rows{sheet.pixel_world, 0.0, sheet.thickest_world, {1.0, 0.0}};
+  const glm::dvec2 size(window.width, window.height), first(window.x, window.y);
+  for (const auto& [from, to] : cut_hatch(sheet.cut_curves, rows)) {
+    // A row's line lies at its border: by so little the cut's own line hides it.
+    const glm::dvec2 begin = sheet.pixel_of(from) - first, end = sheet.pixel_of(to) - first;
+    const double row = std::round(begin.y);
+    if (row < 0.0 || row >= size.y) continue;
+    const auto left = static_cast<std::size_t>(std::clamp(std::round(begin.x), 0.0, size.x)),
+               right = static_cast<std::size_t>(std::clamp(std::round(end.x), 0.0, size.x));
+    for (std::size_t x = left; x < right; ++x)
+      image.rgba[static_cast<std::size_t>(row) * window.width + x] = vec4(0.0F);
+  }
 }
 
 }  // namespace splatray

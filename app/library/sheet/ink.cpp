@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <vector>
+#include "app/library/sheet/draw_cut.h"
 
 namespace splatray {
 namespace {
@@ -87,7 +89,9 @@ PixelWindow ink_window(const Sheet& sheet, const PixelWindow& part) {
 }
 
 void draw_ink(const Sheet& sheet, const SeenPixels& seen, const PixelWindow& part, Image& image) {
-  const std::vector<float> ink = thin_lines(sheet, seen);
+  std::vector<float> ink = thin_lines(sheet, seen);
+  const std::vector<float> beside = beside_cut(sheet, seen.window);
+  for (std::size_t i = 0; i < ink.size(); ++i) ink[i] *= 1.0F - beside[i];
   const std::size_t width = seen.window.width, height = seen.window.height;
   const std::size_t left = part.x - seen.window.x, top = part.y - seen.window.y, reach = reach_px(sheet);
   const auto widest = [&](std::size_t x, std::size_t y) {

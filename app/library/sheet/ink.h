@@ -17,7 +17,7 @@ struct SeenPixels {
 [[nodiscard]] PixelWindow ink_window(const Sheet& sheet, const PixelWindow& part);
 
 /// Draws black lines where what is seen changes: depth by more than the surface's own slope gives, direction, object (Saito,
-/// Takahashi 1990, "Comprehensible Rendering of 3-D Shapes"). The image is of the part; linear colours.
+/// Takahashi 1990, "Comprehensible Rendering of 3-D Shapes"), but beside what is cut (beside_cut). The image is of the part; linear colours.
 void draw_ink(const Sheet& sheet, const SeenPixels& seen, const PixelWindow& part, Image& image);
 
 }  // namespace splatray

@@ -32,6 +32,7 @@ struct Sheet {
   std::string crs;                      ///< Scene::crs
   std::vector<CutCurve> cut_curves;     ///< what is cut
   std::vector<std::array<glm::dvec2, 2>> hatch;  ///< lines between the backs of these, along right and top
+  double thickest_world = 0.0;          ///< of a wall (HatchStyle::thickest)
   std::vector<Contour> contours;                 ///< along right and top
   std::vector<double> levels;  ///< heights of level marks, ascending, world units along `up`
   ColorLegend legend;          ///< of the colours shown; without a title, nothing is to be said of them

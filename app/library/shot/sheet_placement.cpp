@@ -239,10 +239,10 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   set_pixels(shown, splat_count(scene), sheet);
   if (sheet.cuts && sheet.asked.weight_mm > 0.0)
     sheet.cut_curves = plane_cut(scene, asked_region, cut_plane(sheet), CUT_TOLERANCE_MM * sheet.mm_world());
+  sheet.thickest_world = THICKEST_WALL_METRES / sheet.unit_metres;
   if (sheet.asked.hatch_mm > 0.0)
-    sheet.hatch =
-        cut_hatch(sheet.cut_curves, {sheet.asked.hatch_mm * sheet.mm_world(), STUB_MM * sheet.mm_world(),
-                                     THICKEST_WALL_METRES / sheet.unit_metres});
+    sheet.hatch = cut_hatch(sheet.cut_curves, {sheet.asked.hatch_mm * sheet.mm_world(),
+                                               STUB_MM * sheet.mm_world(), sheet.thickest_world});
   if (sheet.asked.contours) sheet.contours = sheet_contours(scene, region, sheet);
   if (sheet.asked.level)
     sheet.levels = floor_levels(scene, region, glm::normalize(sheet.up), sheet.unit_metres);

@@ -125,7 +125,7 @@ std::vector<Field> look_fields() {
                       "(greys), distance "
                       "(from the scanner), or an attribute they have, such as intensity, class, return, "
                       "source, scan, kind (surface, line or scatter); default rgb, of scans without colours "
-                      "intensity, of sites and rooms height with it",
+                      "intensity, of sites and rooms height with it, of rooms on sheets orientation",
                       "NAME"),
              "rgb, height, intensity, class, normal, ...")
           .marked(OF_SCENES),
