@@ -86,6 +86,9 @@ TEST(Measures, AreWrittenWithTheDigitsThatCount) {
   EXPECT_EQ(text(1004.000006, 0.0, MeasureUnit::length, 1.0), "1004 m") << "a tenth of a millimetre";
   EXPECT_EQ(text(2002.49999963, 0.0, MeasureUnit::length, 0.001), "2002.5 mm");
   EXPECT_EQ(text(7.0, 0.0, MeasureUnit::length, 0.5), "7 units");
+  EXPECT_EQ(text(1.6999984, 0.00000065, MeasureUnit::length, 1.0), "1.699998 \u00B10.000010 m")
+      << "of rounding";
+  EXPECT_EQ(text(2.49999, 0.0000016, MeasureUnit::area, 1.0), "2.499990 \u00B10.000010 m\u00B2");
 }
 
 TEST(Measures, HaveTwoDigitsOfTheirIntervalsWhateverThatIs) {
@@ -105,6 +108,15 @@ TEST(Measures, WithoutAnIntervalHaveTheDigitsOfWhatTheyStandBeside) {
   EXPECT_EQ(rows[1].quantity, "horizontal");
   EXPECT_EQ(rows[1].words.value + "|" + rows[1].words.within, "16.1235|");
   EXPECT_EQ(rows[2].words.value + "|" + rows[2].words.within, "0.5000|0.0083");
+}
+
+TEST(Measures, HaveNoIntervalsOfTheNormalsErrors) {
+  const Measure point =
+      measure_of(MeasureKind::point, {{1.5006, 2.6999984, 3.0}}, {0.001, 0.000003, 0.00001});
+  const std::vector<MeasureRow> rows = measure_rows(std::vector(1, point), {UP});
+  EXPECT_EQ(rows[0].words.value + "|" + rows[0].words.within, "431251.5006|0.0020");
+  EXPECT_EQ(rows[1].words.value + "|" + rows[1].words.within, "5412362.7000|");
+  EXPECT_EQ(rows[2].words.value + "|" + rows[2].words.within, "220.0000|");
 }
 
 TEST(Measures, AreATableWithHeaderNameAndUnit) {

@@ -24,6 +24,7 @@ space = drawing.modelspace()
 print(json.dumps({
     "errors": [error.message for error in problems.errors + problems.fixes], "units": drawing.units,
     "layers": [layer.dxf.name for layer in drawing.layers],
+    "hatch": [[list(line.dxf.start), list(line.dxf.end)] for line in space.query("LINE") if line.dxf.layer == "HATCH"],
     "polylines": [[line.dxf.layer, line.closed, [list(point[:2]) for point in line.get_points()]] for line in space.query("LWPOLYLINE")],
     "texts": [[text.dxf.layer, decode_dxf_unicode(text.dxf.text)] for text in space.query("TEXT")],
     "circles": [[list(circle.ocs().to_wcs(circle.dxf.center)), circle.dxf.radius] for circle in space.query("CIRCLE")]}))
@@ -70,11 +71,13 @@ def main():
                     "--measures", measures], check=True)
     found = read(python, plan)
     assert found["units"] == 6, "metres"
-    assert {"CUT", "BEYOND", "HIDDEN", "MEASURES", "TEXT"} <= set(found["layers"])
+    assert {"CUT", "HATCH", "BEYOND", "HIDDEN", "CONTOURS", "LEVELS", "MEASURES", "TEXT"} <= set(found["layers"])
     cut = sorted((abs(area([[x - LOW[0], y - LOW[1]] for x, y in line])), closed) for layer, closed, line in found["polylines"] if layer == "CUT")
     print("areas of what is cut:", cut)
     assert len(cut) == 2 and all(closed for _, closed in cut), cut
     assert abs(cut[1][0] - 2.0) < 0.01 and abs(cut[0][0] - math.pi * (RADIUS ** 2 - 0.1 ** 2)) < 0.005, cut
+    print("lines of the hatch:", len(found["hatch"]))
+    assert len(found["hatch"]) > 20 and all(0 < math.dist(*line) < 1.5 for line in found["hatch"])
     assert ["TEXT", "Haus \u00c4 \u2300"] in found["texts"] and ["TEXT", "1 : 50"] in found["texts"], found["texts"]
     assert any(layer == "MEASURES" for layer, _, _ in found["polylines"])
 

@@ -9,7 +9,9 @@
 namespace splatray {
 namespace {
 
-constexpr double ROUNDED = 1e-4;        ///< of an error: three steps of a splat's normal (OCT_SCALE), radians
+constexpr double ROUNDED = 1e-4;  ///< of an error: three steps of a splat's normal (OCT_SCALE), radians
+/// Of the widest interval beside it: what is less comes of the error of the normal, a degree, along which a point may be off.
+constexpr double NEGLIGIBLE = 0.02;
 constexpr double OF_95_PERCENT = 1.96;  ///< standard deviations of a normal distribution
 
 using Places = std::vector<glm::dvec3>;
@@ -154,10 +156,14 @@ double polygon_area(std::span<const glm::dvec3> points) {
 
 std::vector<MeasureValue> values_of(const Measure& measure, const glm::dvec3& up) {
   std::vector<MeasureValue> values = own_values(measure, up);
-  for (MeasureValue& value : values)
+  for (MeasureValue& value : values) {
+    double widest = 0.0;
     for (const MeasureValue& other : values)
-      if (!(value.within > 0.0) && other.unit == value.unit)
-        value.beside = std::max(value.beside, other.within);
+      if (other.unit == value.unit) widest = std::max(widest, other.within);
+    if (value.within > NEGLIGIBLE * widest) continue;
+    value.within = 0.0;
+    value.beside = widest;
+  }
   return values;
 }
 

@@ -75,7 +75,7 @@ struct MeasureValue {
   double value = 0.0;
   double within = 0.0;
   MeasureUnit unit = MeasureUnit::length;
-  /// The widest interval among the measure's other values of its unit, for a value without one; 0 = none.
+  /// The widest interval among the measure's values of its unit, for a value whose own is none or next to none beside it; 0 = none.
   double beside = 0.0;
 };
 /// What a measure says: of a distance also its horizontal and vertical part, of an area also its perimeter. Empty while points

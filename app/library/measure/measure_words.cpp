@@ -12,6 +12,9 @@ namespace splatray {
 namespace {
 
 constexpr double FINEST_METRES = 1e-4, FINEST_DEG = 1e-3;  ///< that are told apart without an interval
+/// The least interval that is written, metres or square metres, and degrees: what the finest scanners tell apart. Across a point's error its
+/// place follows from rounded numbers alone.
+constexpr double LEAST_WITHIN = 1e-5, LEAST_WITHIN_DEG = 1e-4;
 
 /// Without zeros behind the last digit that counts.
 std::string trimmed_number(std::string text) {
@@ -25,6 +28,12 @@ std::string trimmed_number(std::string text) {
 int finest_decimals(MeasureUnit unit, double unit_metres) {
   const double finest = unit == MeasureUnit::degrees ? FINEST_DEG : FINEST_METRES / unit_metres;
   return static_cast<int>(std::ceil(-std::log10(finest) - 1e-9));
+}
+
+/// The interval that is written.
+double written_within(double within, MeasureUnit unit, double unit_metres) {
+  const double factor = unit == MeasureUnit::area ? unit_metres * unit_metres : unit_metres;
+  return std::max(within, unit == MeasureUnit::degrees ? LEAST_WITHIN_DEG : LEAST_WITHIN / factor);
 }
 
 /// A cell of comma-separated values.
@@ -95,10 +104,13 @@ std::string rounded_text(double value, int decimals) {
 ValueWords value_words(const MeasureValue& value, double unit_metres) {
   const std::string unit = unit_symbol(value.unit, unit_metres);
   if (value.within > 0.0) {
-    const int decimals = decimals_of(value.within);
-    return {rounded_text(value.value, decimals), rounded_text(value.within, decimals), unit};
+    const double within = written_within(value.within, value.unit, unit_metres);
+    const int decimals = decimals_of(within);
+    return {rounded_text(value.value, decimals), rounded_text(within, decimals), unit};
   }
-  if (value.beside > 0.0) return {rounded_text(value.value, decimals_of(value.beside)), "", unit};
+  if (value.beside > 0.0)
+    return {rounded_text(value.value, decimals_of(written_within(value.beside, value.unit, unit_metres))), "",
+            unit};
   return {trimmed_number(rounded_text(value.value, finest_decimals(value.unit, unit_metres))), "", unit};
 }
 

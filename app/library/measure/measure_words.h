@@ -28,7 +28,7 @@ struct MeasureFrame {
 /// The number rounded to so many decimals, never "-0".
 [[nodiscard]] std::string rounded_text(double value, int decimals);
 
-/// A value in words, without its unit. A value without an interval has the digits of the one it stands beside (MeasureValue::beside), else
+/// A value in words, without its unit. The least interval written is a hundredth of a millimetre or what corresponds to it. A value without an interval has the digits of the one it stands beside (MeasureValue::beside), else
 /// of a tenth of a millimetre, the least that scanners tell apart, or a thousandth of a degree.
 struct ValueWords {
   std::string value;
