@@ -10,7 +10,7 @@ namespace splatray {
 namespace {
 
 constexpr double ROUNDED = 1e-4;  ///< of an error: three steps of a splat's normal (OCT_SCALE), radians
-/// Of the widest interval beside it: what is less comes of the error of the normal, a degree, along which a point may be off.
+/// Share of the widest interval beside it, below which an interval comes of the error of the normal, a degree.
 constexpr double NEGLIGIBLE = 0.02;
 constexpr double OF_95_PERCENT = 1.96;  ///< standard deviations of a normal distribution
 
