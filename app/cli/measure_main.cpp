@@ -70,8 +70,7 @@ void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
   add_named(std::string("--") + OLD_VERTICAL, MeasureKind::vertical, "", "PLACE;PLACE");
   list.set_group("Measures");
   add(MeasureKind::angle, "angle at the second of three places", "PLACE;PLACE;PLACE");
-  add(MeasureKind::area, "area and perimeter of the polygon of three places and more",
-      "PLACE;PLACE;PLACE...");
+  add(MeasureKind::area, "area and perimeter of a polygon of places", "PLACE;PLACE;PLACE...");
   add(MeasureKind::sphere, "radius of the sphere through what is within REACH of a place", "PLACE;REACH");
   add(MeasureKind::cylinder, "radius of the cylinder through what is within REACH of a place", "PLACE;REACH");
   list.add_repeated(
@@ -111,8 +110,8 @@ std::optional<Asked> parse(int argc, char** argv) {
   list.set_brief("--output", "file to write: .geojson, .dxf or .csv");
   list.set_examples({{"splatray-measure room.e57 --distance '0,0,0>1,0,0;0,0,0>-1,0,0'",
                       "from wall to wall, along rays from the scanner"},
-                     {"splatray-measure room.e57 --vertical '1,2,0;1,2,2.5' --name 'door' --point 1,2,0",
-                      "a height between two places, which gets a name, and one of them"},
+                     {"splatray-measure room.e57 --vertical '1,2,0;1,2,2.5' --name door",
+                      "a height between two places, with a name"},
                      {"splatray-measure pipes.laz --cylinder '4.1,0.3,1.2;0.15' -o pipe.dxf",
                       "a pipe's radius, for a drawing"}});
   if (!list.parse(argc, argv)) return {};
