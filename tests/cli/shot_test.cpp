@@ -175,7 +175,7 @@ TEST(Shot, DrawingsWithoutColoursAreOnWhitePaper) {
   };
   EXPECT_EQ(
       said(drawn(room())),
-      "a room: --color-by orientation --look scan --lights none --ink --tone none --exposure 0.415 --denoise");
+      "a room: --color-by orientation --look scan --lights none --ink --tone none --exposure 0.331 --denoise");
   EXPECT_FALSE(drawn(room()).exposes);
   EXPECT_EQ(drawn(site()).request.look.attributes.color_by, "height") << "which a map is of";
   Scene coloured = room();
