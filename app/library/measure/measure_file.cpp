@@ -103,12 +103,15 @@ Geometry geometry_in(const Json& feature) {
   return found;
 }
 
-MeasureKind kind_of(const Json& feature, const std::string& geometry) {
+/// The kind that a feature names.
+std::optional<MeasureKind> named_kind(const Json& feature) {
   const Json name = property(feature, "kind");
-  if (!name.is_null()) {
-    if (const std::optional<MeasureKind> kind = measure_kind(name)) return *kind;
-    throw Expected{"a kind that splatray-measure has, not '" + name.get<std::string>() + "'"};
-  }
+  if (name.is_null()) return {};
+  if (const std::optional<MeasureKind> kind = measure_kind(name)) return kind;
+  throw Expected{"a kind that splatray-measure has, not '" + name.get<std::string>() + "'"};
+}
+
+MeasureKind kind_of_geometry(const std::string& geometry) {
   if (geometry == "Polygon") return MeasureKind::area;
   if (geometry == "LineString") return MeasureKind::distance;
   if (geometry == "Point") return MeasureKind::point;
@@ -116,8 +119,9 @@ MeasureKind kind_of(const Json& feature, const std::string& geometry) {
 }
 
 Measure measure_of(const Json& feature) {
+  const std::optional<MeasureKind> kind = named_kind(feature);
   const Geometry geometry = geometry_in(feature);
-  Measure measure{kind_of(feature, geometry.type), {}};
+  Measure measure{kind ? *kind : kind_of_geometry(geometry.type), {}};
   const Json name = property(feature, "name"), errors = property(feature, "errors"),
              sideways = property(feature, "errors_sideways");
   if (name.is_string()) measure.name = to_utf8(name.get<std::string>());
