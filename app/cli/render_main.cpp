@@ -8,6 +8,7 @@
 #include "app/cli/stats_json.h"
 #include "app/cli/typical_work.h"
 #include "app/library/image_file.h"
+#include "app/library/picture/lod_error.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/series/make.h"
 #include "app/library/picture/series/run_files.h"
@@ -106,6 +107,7 @@ int render(int argc, char** argv) {
   expose(shot, shown, loaded.facts);
   times.exposure_ms = watch.lap_ms();
   report_choices(shot);
+  measure_lod_error(shot, shown, loaded, note);
   const SequenceRecord record = make(shot, shown, reporting_on(progress, shot));
   progress.clear();
 

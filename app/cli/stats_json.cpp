@@ -115,6 +115,7 @@ void write_stats(const Shot& shot, const LoadedScene& loaded, const PoolCounts& 
       {"bytes", bytes_json(bytes)}};
   if (loaded.build) json["build"] = Json::parse(build_stats_json(*loaded.build));
   if (settings.counters) json["counters"] = counters_json(sum.stats.counters);
+  if (!shot.lod_error.empty()) json["lod_error"] = shot.lod_error;
   if (shot.denoises()) json["times_ms"]["denoise"] = sum.denoise_ms;
   if (shot.is_sequence()) json["frames"] = frames_json(record.made);
   write_text_file(json_text(json, 2) + '\n', shot.request.output.stats_json);

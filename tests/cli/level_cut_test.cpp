@@ -137,5 +137,45 @@ TEST(LevelCut, EveryPixelHasItsPoints) {
   EXPECT_GT(met, 1000U);
 }
 
+/// Of a window all nodes that its rays meet, down to the deepest, and none that lies beside it.
+TEST(LevelCut, WindowsTakeAllTheyShow) {
+  const Levels levels = ground(8, 64);
+  View view = from_above(200.0);
+  view.camera.target += glm::dvec3(90.0, 40.0, 0.0);
+  view.window = {300, 120, 32, 24};
+  LevelCut all{{view}, 0.0};
+  all.unseen_factor = std::numeric_limits<double>::infinity();
+  const std::vector<std::uint32_t> taken = cut(levels, all);
+  const ImagePlane plane = image_plane(RootTransform{}, view);
+  glm::dvec2 low(1024.0), high(0.0);
+  for (const double y : {120.0, 144.0})
+    for (const double x : {300.0, 332.0}) {
+      const glm::dvec3 dir = plane.forward + plane.corner + x * plane.dx + y * plane.dy;
+      const glm::dvec2 place = glm::dvec2(plane.eye - dir * (plane.eye.z / dir.z));
+      low = glm::min(low, place);
+      high = glm::max(high, place);
+    }
+  std::size_t deepest = 0;
+  for (std::uint32_t i = 0; i < levels.nodes.size(); ++i) {
+    const LevelNode& node = levels.nodes[i];
+    const double edge = std::ldexp(1024.0, -static_cast<int>(node.level));
+    const glm::dvec2 corner = edge * glm::dvec2(node.cell);
+    const bool is_taken = std::binary_search(taken.begin(), taken.end(), i);
+    // The ground's nodes are cubes: some that stand beside the window reach into it above the ground.
+    const bool meets =
+        corner.x < high.x && corner.y < high.y && corner.x + edge > low.x && corner.y + edge > low.y;
+    const bool is_far = corner.x > high.x + 2.0 * edge || corner.y > high.y + 2.0 * edge ||
+                        corner.x + 3.0 * edge < low.x || corner.y + 3.0 * edge < low.y;
+    const glm::dvec2 middle = 0.5 * (low + high);
+    const bool has_middle = corner.x < middle.x && middle.x < corner.x + edge && corner.y < middle.y &&
+                            middle.y < corner.y + edge;
+    if (has_middle) EXPECT_TRUE(is_taken) << i;
+    if (is_far) EXPECT_FALSE(is_taken) << i;
+    if (is_taken && meets && node.level == 7) ++deepest;
+  }
+  EXPECT_GT(deepest, 1U);
+  EXPECT_LT(taken.size(), levels.nodes.size() / 10);
+}
+
 }  // namespace
 }  // namespace splatray

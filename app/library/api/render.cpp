@@ -4,6 +4,7 @@
 #include "app/library/api/request_impl.h"
 #include "app/library/api/scene_impl.h"
 #include "app/library/image_file.h"
+#include "app/library/picture/lod_error.h"
 #include "app/library/picture/make_picture.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/series/make.h"
@@ -129,6 +130,8 @@ Made make(const Scene& scene, const Request& asked, const Progress& progress) {
     return impl->on_device(relay, [&](SceneOnDevice& shown) {
       show(resolved, impl->loaded.facts, shown);
       Made made{{}, choices_of(shot), shot.notes};
+      measure_lod_error(shot, shown, impl->loaded,
+                        [&made](const std::string& note) { made.notes.push_back(note); });
       const auto pictures = static_cast<double>(shot.frames.size());
       const SequenceRecord record = splatray::make(
           shot, shown,

@@ -100,7 +100,7 @@ std::string joined_devices(const std::string& devices, const std::string& more) 
 Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& camera,
                           const std::string& devices) {
   const bool ortho = camera.ortho_height > 0.0;
-  return {{"command_line", command_line(still_request(shot, camera))},
+  Metadata metadata = {{"command_line", command_line(still_request(shot, camera))},
           {"eye", number_text(camera.eye)},
           {"target", number_text(camera.target)},
           {"up", number_text(camera.up)},
@@ -111,6 +111,8 @@ Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& ca
           {"seed", std::to_string(shot.settings.seed)},
           {"commit", COMMIT},
           {"choices", choices_of(shot)}};
+  if (!shot.lod_error.empty()) metadata.emplace_back("lod_error", shot.lod_error);
+  return metadata;
 }
 
 DisplayImage shown_image(const Shot& shot, const Image& image) {

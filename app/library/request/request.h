@@ -117,6 +117,7 @@ struct Request {
     std::uint32_t orbit_columns = 0, orbit_rows = 1;
     std::vector<FrameRange> frames;      ///< empty = all
     bool skip_existing = false;          ///< leave out pictures that exist
+    bool lod_error = false;              ///< lod_error.h, beside the pictures
     std::filesystem::path stats_json;    ///< empty = none
     std::filesystem::path reference;     ///< empty = no comparison
     double reference_threshold = 0.004;  ///< allowed error of a pixel, display-encoded 0..1

@@ -23,10 +23,12 @@ class PixelsOfView {
  public:
   explicit PixelsOfView(const View& view)
       : plane_(image_plane(RootTransform{}, view)), is_ortho_(view.camera.ortho_height > 0.0) {
-    const glm::dvec3 across = double(view.width) * plane_.dx, down = double(view.height) * plane_.dy;
-    const std::array<glm::dvec3, 4> corners = {plane_.corner, plane_.corner + across,
-                                               plane_.corner + across + down, plane_.corner + down};
-    const glm::dvec3 middle = plane_.corner + 0.5 * (across + down);
+    const PixelWindow made = view.made();
+    const glm::dvec3 corner = plane_.corner + double(made.x) * plane_.dx + double(made.y) * plane_.dy;
+    const glm::dvec3 across = double(made.width) * plane_.dx, down = double(made.height) * plane_.dy;
+    const std::array<glm::dvec3, 4> corners = {corner, corner + across, corner + across + down,
+                                               corner + down};
+    const glm::dvec3 middle = corner + 0.5 * (across + down);
     for (std::size_t i = 0; i < 4; ++i) {
       const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % 4];
       Side& side = sides_[i];
@@ -96,6 +98,9 @@ class Chooser {
   /// The spacing of so many points that lie about in a square of the node's edge.
   [[nodiscard]] double spacing_above(const Levels& levels, const LevelNode& node, double points) const {
     const Box box = box_of(levels, node, cut_.z_scale);
+    if (std::isinf(cut_.unseen_factor) &&
+        std::none_of(views_.begin(), views_.end(), [&](const PixelsOfView& view) { return view.sees(box); }))
+      return 0.0;
     const double spacing_world = (box.high.x - box.low.x) / std::sqrt(points);
     double widest_px = 0.0;
     for (const PixelsOfView& view : views_)

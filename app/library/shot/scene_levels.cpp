@@ -1,8 +1,12 @@
 #include "app/library/shot/scene_levels.h"
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "app/library/shot/level_cut.h"
+#include "engine/base/error.h"
 #include "engine/base/memory.h"
 #include "preprocess/read/las/copc.h"
 #include "preprocess/read/scan/input_files.h"
@@ -71,6 +75,29 @@ NeededNodes needed_nodes(const Request& request, const std::vector<Camera>& came
   NeededNodes needed{{}, chosen.spacing_px};
   for (std::size_t i = 0; i < files.paths.size(); ++i) needed.nodes[files.paths[i]] = chosen.nodes[i];
   return needed;
+}
+
+ChosenNodes with_all_seen(const Request& request, const std::vector<View>& parts, const InLevels& files,
+                          const ChosenNodes& nodes) {
+  LevelCut cut;
+  cut.views = parts;
+  cut.spacing_px = 0.0;
+  cut.unseen_factor = std::numeric_limits<double>::infinity();
+  cut.z_scale = request.source.scans.z_scale;
+  const CutLevels seen = cut_levels(files.levels, cut);
+  ChosenNodes all = nodes;
+  for (std::size_t i = 0; i < files.paths.size(); ++i) {
+    std::vector<std::uint32_t>& of_file = all[files.paths[i]];
+    const std::vector<std::uint32_t> before = std::exchange(of_file, {});
+    std::set_union(before.begin(), before.end(), seen.nodes[i].begin(), seen.nodes[i].end(),
+                   std::back_inserter(of_file));
+  }
+  const std::uint64_t points = files.points(all), most = most_points(request);
+  if (points > most)
+    throw Error(ExitCode::out_of_memory, "--lod-error takes " + std::to_string(points) +
+                                             " points, expected at most the " + std::to_string(most) +
+                                             " that fit (--max-memory)");
+  return all;
 }
 
 }  // namespace splatray

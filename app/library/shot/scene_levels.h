@@ -36,4 +36,8 @@ struct NeededNodes {
 [[nodiscard]] NeededNodes needed_nodes(const Request& request, const std::vector<Camera>& cameras,
                                        const View& view, const InLevels& files);
 
+/// These nodes and all that parts of pictures show. Throws Error (out_of_memory) for more points than the request's memory holds.
+[[nodiscard]] ChosenNodes with_all_seen(const Request& request, const std::vector<View>& parts,
+                                        const InLevels& files, const ChosenNodes& nodes);
+
 }  // namespace splatray

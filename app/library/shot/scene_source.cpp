@@ -123,6 +123,11 @@ LoadedScene load_needed(const Request& request, const InLevels& files, const Sce
   return loaded;
 }
 
+Scene load_nodes_of(const Request& request, const SceneFacts& overview, const ChosenNodes& nodes,
+                    const LoadListener& listener) {
+  return std::move(load_nodes(as_chosen(request, overview), nodes, listener).scene);
+}
+
 LoadedScene load_scene(const Request& request, const LoadListener& listener) {
   require_scene_alone(request.source.inputs);
   const InLevels files = in_levels(request);

@@ -39,6 +39,10 @@ struct LoadListener {
                                       const SceneFacts& overview, const LoadListener& listener,
                                       const ChosenNodes& shown = {});
 
+/// A scene of these nodes of the files, in what is chosen of the overview. Throws Error.
+[[nodiscard]] Scene load_nodes_of(const Request& request, const SceneFacts& overview,
+                                  const ChosenNodes& nodes, const LoadListener& listener);
+
 /// The same of objects that are in memory, without what files alone have; their numbers stay. Throws Error.
 [[nodiscard]] LoadedScene load_objects(Input input, const Request& request, const LoadListener& listener);
 

@@ -23,6 +23,7 @@ struct Shot {
   Request request;                   ///< as asked for, with the choices as if they had been asked for
   std::string of{};                  ///< what the scan is of, "a room"; empty: no scan
   std::vector<FieldText> choices{};  ///< what was chosen, as the fields that ask for the same
+  std::string lod_error{};           ///< lod_error.h's sentence; empty where it was not asked for
   std::vector<std::string> notes{};  ///< sentences about options that have no effect
   View view{};                       ///< the camera of a still, and which pixels are made
   Settings settings{};               ///< of the tracer

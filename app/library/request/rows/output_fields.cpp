@@ -136,6 +136,12 @@ std::vector<Field> output_fields() {
       with(switch_row("mixed-devices", OUTPUT, MEMBER(output.mixed_devices),
                       "--resume also a picture of another device or driver, whose samples may differ"),
            {.doors = DOOR_RENDER | DOOR_LIBRARY, .why_not = VIEWER_GOES_ON}),
+      with(switch_row("lod-error", OUTPUT, MEMBER(output.lod_error),
+                      "find on 20 small parts of the (first) picture what points of files in levels that "
+                      "were not read change: its mean "
+                      "and PSNR with their 95 %, which are said and kept in its metadata and --stats-json"),
+           {.doors = DOOR_RENDER | DOOR_LIBRARY,
+            .why_not = "the viewer reads finer points as the camera rests"}),
       needed(number_row("turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
                         "this many pictures of a full turn about the scene's up axis through the target; "
                         "default 0 = none"),
