@@ -222,7 +222,7 @@ Viewpoint choose_viewpoint(const Scene& scene) {
     case SceneKind::sweep:
       return Viewpoint::oblique;
     default:
-      return Viewpoint::front;
+      return is_model_of_room(scene) ? Viewpoint::dollhouse : Viewpoint::front;
   }
 }
 

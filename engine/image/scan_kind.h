@@ -28,6 +28,11 @@ enum class SceneKind {
 /// "a room" and so on; of none "a model".
 [[nodiscard]] const char* scan_kind_name(SceneKind kind);
 
+/// Whether a scene that is no scan and has no camera is a room's inside, which from outside shows nothing: what makes a scan a room holds
+/// at the middle of the points, and more than half of the normals are upright or level, as floors and walls have them; of a round thing
+/// whose faces are turned inside out a fifth is.
+[[nodiscard]] bool is_model_of_room(const Scene& scene);
+
 /// Whether a scan without a known place is in the frame of a camera, x to the right, y down and z ahead: it was seen
 /// from the origin (as seeing_place has it) along z; or it has one layer along z, near the origin, whose normals look
 /// to -z on the mean, by more than 0.3: no scan from above or around does.

@@ -76,6 +76,35 @@ TEST(Viewpoint, FollowsTheShapeOfAScan) {
   EXPECT_EQ(choose_viewpoint(scanned_box({400.0, 500.0, 30.0}, false, false)), Viewpoint::oblique);
 }
 
+/// A model of these points: no scan.
+Scene model(const OrientedPoints& points) {
+  Scene scene = scan_scene(points);
+  scene.stations.clear();
+  return scene;
+}
+
+OrientedPoints turned_round(OrientedPoints points) {
+  for (auto& [position, normal] : points) normal = -normal;
+  return points;
+}
+
+TEST(Viewpoint, ModelsOfRoomsAreDollhouses) {
+  const OrientedPoints room = box_points({4.0, 5.0, 3.0}, true);
+  EXPECT_EQ(choose_viewpoint(model(room)), Viewpoint::dollhouse);
+  EXPECT_EQ(choose_viewpoint(model(turned_round(room))), Viewpoint::front) << "a box";
+  EXPECT_EQ(choose_viewpoint(model(box_points({4.0, 5.0, 3.0}, false))), Viewpoint::front) << "an open box";
+  Scene with_camera = model(room);
+  with_camera.camera = Camera{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 45.0};
+  EXPECT_EQ(choose_viewpoint(with_camera), Viewpoint::front) << "its own camera shows it";
+  OrientedPoints house = room;  // walls of 0.2 from outside, too
+  for (const auto& point : turned_round(box_points({4.4, 5.4, 3.4}, true))) house.push_back(point);
+  EXPECT_EQ(choose_viewpoint(model(house)), Viewpoint::front) << "as much outside as inside";
+  OrientedPoints ball;
+  for (const auto& [position, normal] : room)
+    ball.emplace_back(glm::normalize(position), -glm::normalize(position));
+  EXPECT_EQ(choose_viewpoint(model(ball)), Viewpoint::front) << "inside out";
+}
+
 TEST(Viewpoint, CamerasStandWhereTheySay) {
   const Scene room = scanned_box({4.0, 6.0, 3.0}, true, true);
   const Camera inside = viewpoint_camera(room, Viewpoint::inside, 1.5, {});

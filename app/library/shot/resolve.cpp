@@ -27,11 +27,11 @@ void note(Shot& shot, const std::string& field, const std::string& text) {
   shot.choices.push_back({field, text});
 }
 
-/// Where a scan is seen from. An orbit is from outside.
+/// Where a scan, or a model of a room, is seen from. An orbit is from outside.
 void resolve_view(const SceneFacts& facts, Shot& shot) {
   Request::View& view = shot.request.view;
-  if (facts.kind == SceneKind::none || view.eye || view.sheet || view.viewpoint != Viewpoint::automatic)
-    return;
+  const bool is_plain = facts.kind == SceneKind::none && facts.viewpoint == Viewpoint::front;
+  if (is_plain || view.eye || view.sheet || view.viewpoint != Viewpoint::automatic) return;
   const bool from_outside = shot.request.output.orbit_columns > 0;
   view.viewpoint =
       from_outside && facts.viewpoint == Viewpoint::inside ? Viewpoint::dollhouse : facts.viewpoint;

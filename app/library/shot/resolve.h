@@ -6,7 +6,8 @@
 namespace splatray {
 
 /// What a request comes to for a scene, which has its pools and looks as it was loaded (scene_source.h):
-/// - view: choose_viewpoint of scans; of models the scene's own camera, else a view of all; of drawings their own.
+/// - view: choose_viewpoint of scans and of models of rooms; of other models the scene's own camera, else a view of all; of
+///   drawings their own.
 /// - colours: rgb where it says something, else intensity that varies, else none (plain); of sites, sweeps and rooms seen from
 ///   outside height, and intensity with it.
 /// - look: scan where points have colours of their own, whose light is in them, and inside rooms, where little light comes; else lit.

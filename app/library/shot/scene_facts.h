@@ -11,7 +11,7 @@ namespace splatray {
 
 struct SceneFacts {
   SceneKind kind = SceneKind::none;
-  Viewpoint viewpoint = Viewpoint::front;  ///< that suits a scan
+  Viewpoint viewpoint = Viewpoint::front;  ///< that suits it
   bool has_colors = false;                 ///< of its own that are not all alike
   bool has_intensity = false;              ///< that varies
   std::string color_by{};  ///< the colours that it is shown in were chosen for it; empty: they are its own
