@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "engine/base/rank.h"
 #include "engine/image/point_sample.h"
@@ -185,6 +186,37 @@ Camera sensor_camera(const Scene& scene, double aspect, std::optional<double> fo
                                         : framing_camera(scene, aspect, fov);
 }
 
+/// Of places on the level of `middle`, those of a grid across `size` about it, the one that is furthest from all points that stand on
+/// that level, with points all around and overhead where there is such a place.
+glm::dvec3 roomy_place(const PointSample& sample, const glm::dmat3& axes, const glm::dvec3& middle,
+                       const glm::dvec3& size) {
+  constexpr int STEPS = 10;      // from end to end, of which those at the ends are walls
+  constexpr double LEVEL = 0.2;  // of the height, up and down: neither floor nor ceiling
+  std::vector<glm::dvec3> standing;
+  for (const glm::dvec3& point : sample.position)
+    if (std::abs(glm::dot(point - middle, axes[1])) < LEVEL * size.y) standing.push_back(point);
+  const auto room_at = [&](const glm::dvec3& place) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& point : standing) {
+      const glm::dvec3 away = glm::transpose(axes) * (point - place);
+      nearest = std::min(nearest, std::hypot(away.x, away.z));
+    }
+    return std::pair(is_within(sample, place, axes), nearest);
+  };
+  glm::dvec3 best = middle;
+  std::pair most = room_at(middle);
+  for (int i = 1; i < STEPS; ++i)
+    for (int j = 1; j < STEPS; ++j) {
+      const glm::dvec3 place = middle + (double(i) / STEPS - 0.5) * size.x * axes[0] +
+                               (double(j) / STEPS - 0.5) * size.z * axes[2];
+      const std::pair here = room_at(place);
+      if (!(here > most)) continue;
+      best = place;
+      most = here;
+    }
+  return best;
+}
+
 Camera camera_inside(const Scene& scene, double fov_y_deg, const Region& region) {
   const PointSample sample = framed_points(scene, region);
   const glm::dmat3 axes = upright_axes(scene.up);
@@ -197,7 +229,8 @@ Camera camera_inside(const Scene& scene, double fov_y_deg, const Region& region)
   Camera camera;
   const std::optional<glm::dvec3> free = station_within(scene, sample),
                                   sensor = free ? free : first_sensor(scene);
-  camera.eye = sensor.value_or(center - (0.5 - EYE_SHARE) * size.y * axes[1]);
+  camera.eye =
+      sensor ? *sensor : roomy_place(sample, axes, center - (0.5 - EYE_SHARE) * size.y * axes[1], size);
   for (const glm::dvec3& point : sample.position) middle += point / static_cast<double>(sample.size());
   glm::dvec3 ahead = middle - camera.eye;
   ahead -= glm::dot(ahead, axes[1]) * axes[1];
@@ -222,7 +255,7 @@ Viewpoint choose_viewpoint(const Scene& scene) {
     case SceneKind::sweep:
       return Viewpoint::oblique;
     default:
-      return is_model_of_room(scene) ? Viewpoint::dollhouse : Viewpoint::front;
+      return is_model_of_room(scene) ? Viewpoint::inside : Viewpoint::front;
   }
 }
 

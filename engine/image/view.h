@@ -137,8 +137,8 @@ enum class Viewpoint {
   sensor,     ///< from where a depth camera or scanner was, as it saw; front where no place is known
 };
 
-/// By kind_of_scan (scan_kind.h): from the sensor what one saw, into rooms from inside where a station stands free in them, else, and into
-/// models of rooms, as into a doll's house; sites and sweeps oblique, all else from the front.
+/// By kind_of_scan (scan_kind.h): from the sensor what one saw, into rooms from inside where a station stands free in them, and into models of
+/// rooms, else as into a doll's house; sites and sweeps oblique, all else from the front.
 [[nodiscard]] Viewpoint choose_viewpoint(const Scene& scene);
 /// "front" and so on.
 [[nodiscard]] const char* viewpoint_name(Viewpoint viewpoint);

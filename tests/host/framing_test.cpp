@@ -88,9 +88,9 @@ OrientedPoints turned_round(OrientedPoints points) {
   return points;
 }
 
-TEST(Viewpoint, ModelsOfRoomsAreDollhouses) {
+TEST(Viewpoint, ModelsOfRoomsAreSeenFromInside) {
   const OrientedPoints room = box_points({4.0, 5.0, 3.0}, true);
-  EXPECT_EQ(choose_viewpoint(model(room)), Viewpoint::dollhouse);
+  EXPECT_EQ(choose_viewpoint(model(room)), Viewpoint::inside);
   EXPECT_EQ(choose_viewpoint(model(turned_round(room))), Viewpoint::front) << "a box";
   EXPECT_EQ(choose_viewpoint(model(box_points({4.0, 5.0, 3.0}, false))), Viewpoint::front) << "an open box";
   Scene with_camera = model(room);
@@ -119,6 +119,19 @@ TEST(Viewpoint, CamerasStandWhereTheySay) {
   const Camera middle =
       viewpoint_camera(scanned_box({4.0, 6.0, 3.0}, true, false), Viewpoint::inside, 1.5, {});
   EXPECT_NEAR(middle.eye.z, -0.15, 0.02) << "at eye height";
+}
+
+TEST(Viewpoint, InsideWithoutAStationIsWhereThereIsRoom) {
+  OrientedPoints points = box_points({6.0, 6.0, 3.0}, true);
+  for (const auto& [position, normal] :
+       turned_round(box_points({2.0, 4.0, 2.6}, true)))  // a cupboard in the middle
+    points.emplace_back(position - glm::dvec3(0.4, 0.0, 0.2), normal);
+  const Camera camera = viewpoint_camera(model(points), Viewpoint::inside, 1.5, {});
+  double nearest = 10.0;
+  for (const auto& [position, normal] : points)
+    nearest = std::min(nearest, glm::distance(position, camera.eye));
+  EXPECT_GT(nearest, 1.0) << camera.eye.x << " " << camera.eye.y;
+  EXPECT_GT(camera.eye.x, 0.6) << "on the wider side of it";
 }
 
 /// The largest |x| and |y| in the picture of points that face the eye, 1 = its border.
