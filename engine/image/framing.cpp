@@ -186,7 +186,7 @@ Camera sensor_camera(const Scene& scene, double aspect, std::optional<double> fo
                                         : framing_camera(scene, aspect, fov);
 }
 
-/// Of places on the level of `middle`, those of a grid across `size` about it, the one that is furthest from all points that stand on
+/// Among places on the level of `middle`, those of a grid across `size` about it, the one that is furthest from all points that stand on
 /// that level, with points all around and overhead where there is such a place.
 glm::dvec3 roomy_place(const PointSample& sample, const glm::dmat3& axes, const glm::dvec3& middle,
                        const glm::dvec3& size) {

@@ -137,7 +137,7 @@ TEST(LevelCut, EveryPixelHasItsPoints) {
   EXPECT_GT(met, 1000U);
 }
 
-/// Of a window all nodes that its rays meet, down to the deepest, and none that lies beside it.
+/// A window takes all nodes that its rays meet, down to the deepest, and none that lies beside it.
 TEST(LevelCut, WindowsTakeAllTheyShow) {
   const Levels levels = ground(8, 64);
   View view = from_above(200.0);

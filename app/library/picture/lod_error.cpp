@@ -83,7 +83,7 @@ LodErrorPart compare_part(const Shot& shot, const Traced& some, const Traced& al
       part.radiance += double{glm::dot(vec3(read[i].rgba[pixel]), vec3(1.0F))};
       part.radiance_of_all += double{glm::dot(vec3(whole[i].rgba[pixel]), vec3(1.0F))};
     }
-    // Of two independent pairs: what noise adds to their product is 0 in the mean.
+    // The pairs are independent: what noise adds to their product is 0 in the mean.
     part.squares += double{glm::dot(difference(0, pixel), difference(1, pixel))};
     part.values += 3;
   }

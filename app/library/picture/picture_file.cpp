@@ -100,17 +100,18 @@ std::string joined_devices(const std::string& devices, const std::string& more) 
 Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& camera,
                           const std::string& devices) {
   const bool ortho = camera.ortho_height > 0.0;
-  Metadata metadata = {{"command_line", command_line(still_request(shot, camera))},
-          {"eye", number_text(camera.eye)},
-          {"target", number_text(camera.target)},
-          {"up", number_text(camera.up)},
-          {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
-          {"diagonal_world", number_text(scene.diagonal_world())},
-          {"device", devices},
-          {"samples", std::to_string(shot.settings.samples)},
-          {"seed", std::to_string(shot.settings.seed)},
-          {"commit", COMMIT},
-          {"choices", choices_of(shot)}};
+  Metadata metadata = {
+      {"command_line", command_line(still_request(shot, camera))},
+      {"eye", number_text(camera.eye)},
+      {"target", number_text(camera.target)},
+      {"up", number_text(camera.up)},
+      {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
+      {"diagonal_world", number_text(scene.diagonal_world())},
+      {"device", devices},
+      {"samples", std::to_string(shot.settings.samples)},
+      {"seed", std::to_string(shot.settings.seed)},
+      {"commit", COMMIT},
+      {"choices", choices_of(shot)}};
   if (!shot.lod_error.empty()) metadata.emplace_back("lod_error", shot.lod_error);
   return metadata;
 }
