@@ -121,7 +121,7 @@ std::vector<PixelWindow> lod_error_windows(const PixelWindow& made, std::uint32_
   std::vector<PixelWindow> windows;
   std::mt19937 dice(seed);
   const std::uint32_t columns = std::min(COLUMNS, made.width), rows = std::min(ROWS, made.height);
-  /// Of a side that is divided: where a part begins, and its length.
+  // Where a part of a divided side begins, and its length.
   const auto part = [&dice](std::uint32_t side, std::uint32_t parts, std::uint32_t i) {
     const std::uint32_t low = side * i / parts, field = side * (i + 1) / parts - low;
     const std::uint32_t length = std::min(field, PART_PX);
