@@ -40,7 +40,9 @@ struct LodError {
 
 /// Where the request asks for it, finds the error of the shot's first picture, keeps it as the shot's lod_error and tells `note`: the
 /// parts are traced from the scene shown and from one that has all points in sight of them, twice each, with other samples. Around the
-/// parts the points are as in the picture, which sends light and shadows into them. Throws Error.
+/// parts the points are as in the picture, which sends light and shadows into them. Nothing is said of views that leave out walls by
+/// their sides: of vaulted_room two of four samples found +20 and +40 % where +0.2 % was right, as a wall had its other side. Throws
+/// Error.
 void measure_lod_error(Shot& shot, SceneOnDevice& shown, const LoadedScene& loaded,
                        const std::function<void(const std::string&)>& note);
 
