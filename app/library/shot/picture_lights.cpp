@@ -53,8 +53,7 @@ double look_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& ca
 bool has_default_light(const Shot& shot, const SceneOnDevice& shown) {
   const Scene& scene = shown.scene();
   const Request::Look& asked = shot.request.look;
-  return !asked.lights && asked.environment.empty() && scene.environment_path.empty() &&
-         scene.lights.empty() && !sends_out_light(shown.look().materials);
+  return !asked.lights && asked.environment.empty() && scene.environment_path.empty() && scene.lights.empty();
 }
 
 /// The median distance, world units, of what the eye sees around it where next to none of the directions from it lead out of the
@@ -72,17 +71,18 @@ std::optional<double> room_around(SceneOnDevice& shown, const Camera& camera, co
 }
 
 /// A light at the camera in a room that the default light hardly enters: the first samples of a picture in `look` find less than a
-/// quarter of the light that one needs. As bright as makes irradiance pi at the median distance of what the eye sees around it.
+/// quarter of the light that one needs, or of a room with objects that send out light less than a sixteenth: these are lamps that were
+/// meant to light it, unless they hardly do. As bright as makes irradiance pi at the median distance of what the eye sees around it.
 /// Nothing for looks that do not trace paths and for orthographic cameras.
 std::optional<SceneLight> headlight(const Shot& shot, SceneOnDevice& shown, const Camera& camera,
                                     const Look& look) {
-  constexpr double DARK_STOPS = 2.0;
+  const double dark_stops = sends_out_light(shown.look().materials) ? 4.0 : 2.0;
   if (camera.ortho_height > 0.0 || !look_style(shot.settings.look).paths || !has_default_light(shot, shown))
     return {};
   const std::optional<double> usual = room_around(shown, camera, shot.settings);
   if (!usual) return {};
   const double stops = look_exposure_ev(shot, shown, camera, look);
-  if (stops != 0.0 && stops < DARK_STOPS) return {};  // 0: all is black
+  if (stops != 0.0 && stops < dark_stops) return {};  // 0: all is black
   SceneLight light;
   light.kind = LIGHT_POINT;
   light.position = camera.eye;

@@ -101,12 +101,13 @@ void resolve_environment(const Scene& scene, Shot& shot) {
   note(shot, "environment-strength", text_of(request.settings.environment_strength));
 }
 
-/// Whether the exposure is the picture's where none is asked for: of scans, whose colours are as bright as their scanner took them, and
-/// in light of physical units.
+/// Whether the exposure is the picture's where none is asked for: of scans, whose colours are as bright as their scanner took them,
+/// within rooms, where little of the light comes, and in light of physical units.
 bool exposes_by_default(const Scene& scene, const Request& request, std::uint32_t look) {
+  const bool within = request.view.viewpoint == Viewpoint::inside && look_style(look).lights;
   const bool physical = has_own_lights(scene, request, look) ||
                         (is_daylight(request.look.environment) && look_style(look).lights);
-  return request.look.exposure_auto || !scene.stations.empty() || physical;
+  return request.look.exposure_auto || !scene.stations.empty() || within || physical;
 }
 
 /// Greys by orientation, where nothing darkens them as bright as they are, and lines where surfaces end.

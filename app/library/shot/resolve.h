@@ -13,7 +13,7 @@ namespace splatray {
 /// - look: scan where points have colours of their own, whose light is in them, and inside rooms, where little light comes; else lit.
 /// - noise: taken out of whole pictures of 8 bits, unless --keep-noise, --despeckle, --error, --time or --reference decide.
 /// - environment: beside a scene's own lights the studio, as strong for them as it is for lights of irradiance pi.
-/// - exposure: of scans, of scenes in their own lights and in daylight left to the picture (Shot::exposes).
+/// - exposure: of scans, of rooms seen from inside, of scenes in their own lights and in daylight left to the picture (Shot::exposes).
 /// Throws Error (usage), one sentence, where the scene has not what is asked for or fields do not fit each other.
 [[nodiscard]] Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts);
 
