@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace splatray {
@@ -10,12 +12,16 @@ namespace splatray {
 /// A cube with some of the points that lie in it; its children have others, which are nearer to each other.
 struct LevelNode {
   static constexpr std::uint32_t NO_PARENT = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t MOST_LEVEL = 31;  ///< cells of a level are counted with as many bits
 
   std::uint32_t level = 0;              ///< 0 = the root, whose edge is 2^level of this node's
   glm::uvec3 cell{0};                   ///< its cube among those of its level, from the lowest corner on
   std::uint32_t parent = NO_PARENT;     ///< index of a node before this one
   std::uint64_t points = 0;             ///< of its own; 0: its descendants alone have some
-  std::uint64_t offset = 0, bytes = 0;  ///< of these points in the file
+  std::uint64_t offset = 0, bytes = 0;  ///< of these points in the file; 0: each node is a file of its own
+
+  /// Whether its level has such a cell.
+  [[nodiscard]] bool lies_in_octree() const;
 };
 
 struct Levels {
@@ -26,6 +32,10 @@ struct Levels {
   [[nodiscard]] std::uint64_t points() const;
   [[nodiscard]] std::uint32_t depth() const;  ///< levels that have nodes, 0 without any
 };
+
+/// Puts nodes that a directory names in any order before their children, which know them then. Returns what it found where they are no
+/// octree: "a node twice", "a node without its parent".
+[[nodiscard]] std::optional<std::string> link_levels(std::vector<LevelNode>& nodes);
 
 /// The nodes of the first levels that together have at least `points` points, or all.
 [[nodiscard]] std::vector<std::uint32_t> first_levels(const Levels& levels, std::uint64_t points);

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 

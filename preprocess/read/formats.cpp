@@ -3,6 +3,7 @@
 #include "preprocess/base/file_extension.h"
 #include "preprocess/read/e57/read_e57.h"
 #include "preprocess/read/gltf/read_gltf.h"
+#include "preprocess/read/las/copc.h"
 #include "preprocess/read/las/read_las.h"
 #include "preprocess/read/pcd/read_pcd.h"
 #include "preprocess/read/ply/read_ply.h"
@@ -12,6 +13,8 @@
 #include "preprocess/read/text/read_pts.h"
 #include "preprocess/read/text/read_ptx.h"
 #include "preprocess/read/text/read_xyz.h"
+#include "preprocess/read/tiles/ept.h"
+#include "preprocess/read/tiles/read_vpc.h"
 #include "preprocess/read/vtk/read_vtk.h"
 
 namespace splatray {
@@ -39,7 +42,9 @@ constexpr Format READ_FORMATS[] = {
     {".las .laz",
      "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra "
      "bytes",
-     nullptr, nullptr, read_las},
+     nullptr, nullptr, read_las, copc_levels},
+    {"ept.json", "Entwine point tiles of LAZ, as files beside it", nullptr, nullptr, read_ept, ept_levels},
+    {".vpc", "virtual point clouds: scans that it names", nullptr, nullptr, nullptr, nullptr, read_vpc},
     {".e57",
      "scans with their poses and grids, cartesian or spherical; colours, intensity, normals; all bit widths",
      nullptr, nullptr, read_e57},
@@ -59,14 +64,20 @@ constexpr Format READ_FORMATS[] = {
 std::span<const Format> formats() { return READ_FORMATS; }
 
 const Format* find_format(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_extension(path), name = lower_case(path.filename().string());
   for (const Format& format : READ_FORMATS) {
     const std::string padded = " " + std::string(format.extensions) + " ";
-    if (!extension.empty() && padded.find(" " + extension + " ") != std::string::npos) {
-      return &format;
-    }
+    const auto has = [&](const std::string& word) {
+      return !word.empty() && padded.find(" " + word + " ") != std::string::npos;
+    };
+    if (has(extension) || has(name)) return &format;
   }
   return nullptr;
+}
+
+Levels levels_of(const std::filesystem::path& path) {
+  const Format* format = find_format(path);
+  return format == nullptr || format->read_levels == nullptr ? Levels{} : format->read_levels(path);
 }
 
 std::string format_extensions(bool meshes_only) {

@@ -14,7 +14,7 @@
 #include "preprocess/mesh/mesh_points.h"
 #include "preprocess/points.h"
 #include "preprocess/read/adjust_points.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/read/join_scans.h"
 #include "preprocess/read/one_system.h"

@@ -1,7 +1,7 @@
 #include "preprocess/read/read_mesh.h"
 
 #include "preprocess/base/file_extension.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/read/scan/gaussian_capture.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/scan/stored_colors.h"
 #include "preprocess/read/text/next_word.h"
 #include "preprocess/read/text/parse_number.h"

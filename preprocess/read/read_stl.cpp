@@ -12,7 +12,7 @@
 
 #include "preprocess/base/lower_case.h"
 #include "preprocess/mesh/mesh_normals.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/float_precision.h"
 #include "preprocess/read/text/next_word.h"
 #include "preprocess/read/text/parse_number.h"

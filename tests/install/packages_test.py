@@ -16,6 +16,7 @@ PACKAGES = {"splatray": ["usr/bin/splatray-render", "usr/bin/splatray-preprocess
                          "usr/share/applications/splatray-view.desktop", "usr/share/mime/packages/splatray.xml"],
             "libsplatray0.1": ["usr/lib/libsplatray.so.0.1"],
             "splatray-oiio": ["usr/lib/splatray/libsplatray_oiio-0.1.0.so"],
+            "splatray-remote": ["usr/lib/splatray/libsplatray_remote-0.1.0.so"],
             "splatray-sheet": ["usr/lib/splatray/libsplatray_sheet-0.1.0.so"],
             "splatray-vtk": ["usr/lib/splatray/libsplatray_vtk-0.1.0.so"],
             "libsplatray-dev": ["usr/include/splatray.h", "usr/lib/libsplatray.so", "usr/lib/pkgconfig/splatray.pc",

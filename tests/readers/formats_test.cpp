@@ -30,18 +30,21 @@ TEST(Formats, GuidesTableHasEveryRow) {
 TEST(Formats, EveryExtensionHasOneReaderThatRefusesWhatIsNoSuchFile) {
   const TempFolder folder;
   for (const Format& format : formats()) {
-    EXPECT_EQ((format.read_mesh != nullptr) + (format.read_scene != nullptr) + (format.read_scan != nullptr),
+    EXPECT_EQ((format.read_mesh != nullptr) + (format.read_scene != nullptr) + (format.read_scan != nullptr) +
+                  (format.read_list != nullptr),
               1)
         << format.extensions;
     for (const std::string& extension : split(format.extensions)) {
-      EXPECT_EQ(find_format("A" + extension), &format);
-      static_cast<void>(read_error(folder.path() / ("missing" + extension)));
-      static_cast<void>(read_error(folder.write("empty" + extension, "")));
-      static_cast<void>(read_error(folder.write("noise" + extension, "no such file at all\n")));
+      const bool is_name = extension.front() != '.';  // of a file that is always called so
+      const auto named = [&](const std::string& stem) { return is_name ? extension : stem + extension; };
+      EXPECT_EQ(find_format(named("A")), &format);
+      static_cast<void>(read_error(folder.path() / "missing" / named("a")));
+      static_cast<void>(read_error(folder.write("empty/" + named("a"), "")));
+      static_cast<void>(read_error(folder.write("noise/" + named("a"), "no such file at all\n")));
       std::string upper = extension;
       std::transform(upper.begin(), upper.end(), upper.begin(),
                      [](char c) { return static_cast<char>(std::toupper(c)); });
-      EXPECT_EQ(find_format("a" + upper), &format);
+      EXPECT_EQ(find_format(is_name ? upper : "a" + upper), &format);
     }
   }
 }
@@ -68,6 +71,8 @@ TEST(Formats, RefusalsListTheTable) {
   EXPECT_NE(read_error(folder.write("a.abc", "1 2 3")).find(format_extensions()), std::string::npos);
   EXPECT_EQ(find_format("a"), nullptr);
   EXPECT_EQ(find_format("a.pl"), nullptr);
+  EXPECT_EQ(find_format("a.json"), nullptr);
+  EXPECT_EQ(find_format("https://host/a.laz?b=c.ply#d.obj"), find_format("a.LAZ"));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "app/library/shot/level_cut.h"
 #include "engine/base/error.h"
 #include "engine/base/memory.h"
-#include "preprocess/read/las/copc.h"
+#include "preprocess/read/formats.h"
 #include "preprocess/read/scan/input_files.h"
 
 namespace splatray {

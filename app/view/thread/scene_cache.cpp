@@ -39,11 +39,12 @@ void describe(const fs::path& path, std::string& text) {
   }
 }
 
-/// Whether a file's scene depends on files that it names.
+/// Whether a scene depends on files that this one names, or on what a server has.
 bool names_others(const fs::path& path) {
   const Format* format = find_format(path);
   const std::string extension = lower_extension(path);
-  return (format != nullptr && format->read_scene != nullptr) || extension == ".pvtp" || extension == ".pvtu";
+  return is_url(path) || extension == ".pvtp" || extension == ".pvtu" || extension == ".json" ||
+         (format != nullptr && (format->read_scene != nullptr || format->read_list != nullptr));
 }
 
 /// What a made scene depends on beside its files' contents.

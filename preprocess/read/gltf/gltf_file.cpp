@@ -14,7 +14,7 @@
 #include "engine/base/utf8.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/quoted_list.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/find_file.h"
 #include "preprocess/read/scan/gaussian_capture.h"
 

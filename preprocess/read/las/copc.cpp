@@ -1,14 +1,10 @@
 #include "preprocess/read/las/copc.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string>
-#include <tuple>
-#include <unordered_map>
 
-#include "preprocess/base/file_extension.h"
 #include "preprocess/base/little_endian.h"
 #include "preprocess/read/las/las_units.h"
 
@@ -16,19 +12,7 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t NODE_ENTRY_BYTES = 32;
-constexpr std::int32_t IS_PAGE = -1;      ///< instead of a count: more of the directory lies there
-constexpr std::uint32_t MOST_LEVEL = 31;  ///< cells of a level are counted with as many bits
-
-/// A cube of the octree: its level, and its place there.
-using Key = std::array<std::uint32_t, 4>;
-
-struct HashOfKey {
-  std::size_t operator()(const Key& key) const {
-    std::uint64_t hash = 0;
-    for (const std::uint32_t number : key) hash = (hash ^ number) * 0x9E3779B97F4A7C15ULL;
-    return static_cast<std::size_t>(hash ^ (hash >> 32U));
-  }
-};
+constexpr std::int32_t IS_PAGE = -1;  ///< instead of a count: more of the directory lies there
 
 struct Page {
   std::uint64_t offset = 0, bytes = 0;
@@ -90,47 +74,28 @@ class DirectoryReader {
   }
 
   void add_entry(const unsigned char* entry) {
-    Key key{};
-    for (std::size_t i = 0; i < key.size(); ++i) key[i] = load<std::uint32_t>(entry + 4 * i);
     const auto offset = load<std::uint64_t>(entry + 16);
     const auto bytes = load<std::int32_t>(entry + 24), points = load<std::int32_t>(entry + 28);
     if (bytes < 0 || points < IS_PAGE) refuse("a count below 0");
     if (points == IS_PAGE) return pages_.push_back({offset, static_cast<std::uint64_t>(bytes)});
-    const std::uint32_t level = key[0];
-    if (level > MOST_LEVEL || (std::max({key[1], key[2], key[3]}) >> level) != 0)
-      refuse("a cube beside the octree: level " + std::to_string(level) + ", place " +
-             std::to_string(key[1]) + "," + std::to_string(key[2]) + "," + std::to_string(key[3]));
+    const auto key = [&](std::size_t i) { return load<std::uint32_t>(entry + 4 * i); };
+    const LevelNode node{
+        key(0), {key(1), key(2), key(3)},         LevelNode::NO_PARENT, static_cast<std::uint64_t>(points),
+        offset, static_cast<std::uint64_t>(bytes)};
+    if (!node.lies_in_octree())
+      refuse("a cube beside the octree: level " + std::to_string(node.level) + ", place " +
+             std::to_string(node.cell.x) + "," + std::to_string(node.cell.y) + "," +
+             std::to_string(node.cell.z));
     if (points > 0 && !lies_in_file(offset, static_cast<std::uint64_t>(bytes)))
       refuse("points at " + std::to_string(offset) + ", expected them within the file's " +
              std::to_string(size_) + " bytes");
-    nodes_.push_back({level,
-                      {key[1], key[2], key[3]},
-                      LevelNode::NO_PARENT,
-                      static_cast<std::uint64_t>(points),
-                      offset,
-                      static_cast<std::uint64_t>(bytes)});
+    nodes_.push_back(node);
   }
 
-  /// Puts parents before their children, which know them then; counts the points.
   void link() {
-    const auto order = [](const LevelNode& node) {
-      return std::tuple(node.level, node.cell.x, node.cell.y, node.cell.z);
-    };
-    std::sort(nodes_.begin(), nodes_.end(),
-              [&](const LevelNode& a, const LevelNode& b) { return order(a) < order(b); });
-    std::unordered_map<Key, std::uint32_t, HashOfKey> places;
+    if (const auto fault = link_levels(nodes_)) refuse(*fault);
     std::uint64_t points = 0;
-    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-      LevelNode& node = nodes_[i];
-      if (!places.emplace(Key{node.level, node.cell.x, node.cell.y, node.cell.z}, i).second)
-        refuse("a node twice");
-      points += node.points;
-      if (node.level == 0) continue;
-      const auto parent =
-          places.find({node.level - 1, node.cell.x >> 1U, node.cell.y >> 1U, node.cell.z >> 1U});
-      if (parent == places.end()) refuse("a node without its parent");
-      node.parent = parent->second;
-    }
+    for (const LevelNode& node : nodes_) points += node.points;
     if (points > header_.point_count)
       refuse("more points than the " + std::to_string(header_.point_count) + " that the header counts");
   }
@@ -154,8 +119,7 @@ Levels read_copc(ByteReader& in, const LasHeader& header, const LasVlrs& vlrs) {
   return {info.center - info.half_edge, 2.0 * info.half_edge, DirectoryReader(in, header).read(info.root)};
 }
 
-Levels levels_of(const std::filesystem::path& path) {
-  if (lower_extension(path) != ".laz") return {};
+Levels copc_levels(const std::filesystem::path& path) {
   ByteReader in(path);
   const LasHeader header = read_las_header(in);
   const LasVlrs vlrs = read_las_vlrs(in, header);

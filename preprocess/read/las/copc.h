@@ -14,8 +14,8 @@ namespace splatray {
 /// or points that lie beyond the file or are named twice, cubes that cannot be, nodes without a parent, more points than the header counts.
 [[nodiscard]] Levels read_copc(ByteReader& in, const LasHeader& header, const LasVlrs& vlrs);
 
-/// The levels of a file; empty for those without any. Throws Error (input_unreadable) where it cannot be read.
-[[nodiscard]] Levels levels_of(const std::filesystem::path& path);
+/// The levels of a file of LAS's; empty for those without any. Throws Error (input_unreadable) where it cannot be read.
+[[nodiscard]] Levels copc_levels(const std::filesystem::path& path);
 
 /// The chunks of nodes, in the file's order.
 [[nodiscard]] std::vector<LazChunk> chunks_of(const Levels& levels, const std::vector<std::uint32_t>& nodes);

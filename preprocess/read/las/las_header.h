@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/number_text.h"
+#include "preprocess/base/level_facts.h"
 #include "preprocess/read/las/copc.h"
 #include "preprocess/read/las/las_columns.h"
 #include "preprocess/read/las/las_extra_bytes.h"
@@ -87,17 +88,6 @@ std::vector<FileFact> facts_of(const LasHeader& header, const LasVlrs& vlrs) {
   return facts;
 }
 
-/// How the file's points are in levels, the root's first.
-void add_levels(const Levels& levels, std::vector<FileFact>& facts) {
-  if (levels.nodes.empty()) return;
-  std::vector<std::uint64_t> points(levels.depth());
-  for (const LevelNode& node : levels.nodes) points[node.level] += node.points;
-  std::string text = std::to_string(levels.nodes.size()) + " nodes, points by level";
-  for (const std::uint64_t count : points) text += ' ' + std::to_string(count);
-  facts.push_back({"levels", text + " (COPC)"});
-  facts.push_back({"octree", number_text(levels.low, ' ') + ", edge " + number_text(levels.edge)});
-}
-
 /// The chunks of the nodes that are chosen of the file; nothing: all.
 std::optional<std::vector<LazChunk>> chosen_chunks(const std::filesystem::path& path, const Levels& levels,
                                                    const ChosenNodes& nodes) {
@@ -133,7 +123,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   Levels levels;
   try {
     levels = read_copc(in, header, vlrs);
-    add_levels(levels, file.facts);
+    add_level_facts(levels, "COPC", file.facts);
   } catch (const Error& error) {
     listener.notes.emplace_back(error.what());
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 

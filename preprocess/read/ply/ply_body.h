@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/ply/ply_header.h"
 
 namespace splatray {

@@ -6,7 +6,7 @@
 
 #include "preprocess/base/file_extension.h"
 #include "preprocess/base/lower_case.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 namespace {

@@ -24,6 +24,7 @@ bool may_be_anything(const std::filesystem::path& path) {
 std::vector<InputFile> files_of_folder(const std::filesystem::path& folder) {
   std::vector<InputFile> files;
   std::error_code error;
+  if (std::filesystem::is_regular_file(folder / "ept.json", error)) return {{folder / "ept.json", false}};
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     if (may_be_a_scan(entry.path())) files.push_back({entry.path(), may_be_anything(entry.path())});
   if (error) throw Error(ExitCode::input_unreadable, folder.string() + ": " + error.message());
@@ -42,10 +43,13 @@ std::vector<InputFile> input_files(const std::vector<std::filesystem::path>& pat
   std::vector<InputFile> files;
   for (const std::filesystem::path& path : paths) {
     std::error_code error;
-    if (!std::filesystem::is_directory(path, error))
-      files.push_back({path, false});
-    else
+    const Format* format = find_format(path);
+    if (std::filesystem::is_directory(path, error))
       for (InputFile& file : files_of_folder(path)) files.push_back(std::move(file));
+    else if (format != nullptr && format->read_list != nullptr)
+      for (std::filesystem::path& file : format->read_list(path)) files.push_back({std::move(file), false});
+    else
+      files.push_back({path, false});
   }
   return files;
 }

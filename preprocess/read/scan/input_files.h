@@ -13,8 +13,9 @@ struct InputFile {
   bool may_be_left_out;
 };
 
-/// The paths, a folder being those of its files that may be scans (formats.h, and .ply), by name. Throws Error (input_unreadable)
-/// for a folder that has none or cannot be listed.
+/// The paths; a folder stands for its ept.json or, without one, for those of its files that may be scans (formats.h, and .ply), by
+/// name; a list of files stands for these. Throws Error (input_unreadable) for a folder that has none or cannot be listed, and for a
+/// list that cannot be read.
 [[nodiscard]] std::vector<InputFile> input_files(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace splatray

@@ -1,6 +1,6 @@
 #include "preprocess/read/scan/missing_points.h"
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/scan/narrow_column.h"
 
 namespace splatray {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/base/utf8.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/text/next_word.h"
 #include "preprocess/read/text/parse_number.h"
 

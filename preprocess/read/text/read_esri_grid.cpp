@@ -10,7 +10,7 @@
 
 #include "engine/base/number_text.h"
 #include "preprocess/base/lower_case.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/scan/missing_points.h"
 #include "preprocess/read/text/row_reader.h"
 

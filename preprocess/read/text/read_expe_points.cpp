@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "preprocess/base/little_endian.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/float_precision.h"
 #include "preprocess/read/scan/missing_points.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/text/read_xyz.h"
 
 namespace splatray {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "preprocess/base/quoted_list.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/scan/column_names.h"
 #include "preprocess/read/text/next_word.h"
 #include "preprocess/read/text/parse_number.h"

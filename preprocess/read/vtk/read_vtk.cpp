@@ -5,7 +5,7 @@
 
 #include "engine/base/module.h"
 #include "preprocess/base/file_extension.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/find_file.h"
 #include "preprocess/read/vtk/vtk_legacy_check.h"
 #include "preprocess/read/vtk/vtk_module.h"

@@ -13,7 +13,7 @@
 #include <map>
 #include <string>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 namespace {

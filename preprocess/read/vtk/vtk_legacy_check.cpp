@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "preprocess/base/lower_case.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 namespace {

@@ -27,7 +27,7 @@
 
 #include "engine/base/utf8.h"
 #include "preprocess/base/file_extension.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/scan/narrow_column.h"
 #include "preprocess/read/vtk/vtk_cells_check.h"
 #include "preprocess/read/vtk/vtk_colors.h"

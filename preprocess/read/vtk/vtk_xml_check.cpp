@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 namespace splatray {
 namespace {

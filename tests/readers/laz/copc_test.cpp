@@ -59,7 +59,7 @@ class Copc : public ::testing::Test {
   /// The sentence that reading the directory ends in.
   static std::string refusal(const std::filesystem::path& path) {
     try {
-      static_cast<void>(levels_of(path));
+      static_cast<void>(copc_levels(path));
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::input_unreadable);
       return error.what();
@@ -73,7 +73,7 @@ class Copc : public ::testing::Test {
 };
 
 TEST_F(Copc, TheDirectoryIsAnOctree) {
-  const Levels levels = levels_of(write(entries()));
+  const Levels levels = copc_levels(write(entries()));
   ASSERT_EQ(levels.nodes.size(), 4U);
   EXPECT_EQ(levels.points(), 40U);
   EXPECT_EQ(levels.depth(), 3U);
@@ -85,7 +85,7 @@ TEST_F(Copc, TheDirectoryIsAnOctree) {
   EXPECT_EQ(levels.nodes[3].parent, 1U);
   EXPECT_EQ(first_levels(levels, 20), std::vector<std::uint32_t>{0});
   EXPECT_EQ(first_levels(levels, 21), (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_TRUE(levels_of(folder.write("plain.laz", laz)).nodes.empty());
+  EXPECT_TRUE(copc_levels(folder.write("plain.laz", laz)).nodes.empty());
 }
 
 TEST_F(Copc, NodesAreTheirPartOfTheFile) {
@@ -122,7 +122,7 @@ TEST_F(Copc, PagesMayLieInPages) {
   const std::string more = copc_of(laz, 0.0, EDGE, {node({1, 0, 0, 0}, 1), node({2, 1, 0, 1}, 2)});
   put_number(file, file.size() - 16, std::uint64_t{file.size()});
   file += more.substr(more.size() - 64);
-  EXPECT_EQ(levels_of(folder.write("a.copc.laz", file)).points(), 40U);
+  EXPECT_EQ(copc_levels(folder.write("a.copc.laz", file)).points(), 40U);
 }
 
 TEST_F(Copc, DamagedDirectoriesAreASentence) {

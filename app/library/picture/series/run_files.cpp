@@ -63,7 +63,7 @@ void require_inputs_present(const Request& request) {
   files.push_back(request.output.resume);
   for (const fs::path& file : files) {
     std::error_code error;
-    if (!file.empty() && !fs::exists(file, error))
+    if (!file.empty() && !is_url(file) && !fs::exists(file, error))
       throw Error(ExitCode::input_unreadable, file.string() + ": no such file");
   }
 }

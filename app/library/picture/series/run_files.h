@@ -8,7 +8,7 @@ namespace splatray {
 void note_inputs(const Request& request);
 
 /// Throws Error (input_unreadable) for the first of the files that the request reads which is not there: programs ask before they open
-/// a device.
+/// a device. What lies on a server is not asked for.
 void require_inputs_present(const Request& request);
 
 /// Claims all that a run of splatray-render may write: pictures, what lies beside them, and files of their own. Throws Error

@@ -60,7 +60,7 @@ Field inputs_row() {
 Field lod_row() {
   return value_row(
       "lod", INPUT, "X",
-      "of files in levels (COPC) the points that lie X pixels apart in the pictures are read; 0 = all; "
+      "of files in levels (COPC, EPT) the points that lie X pixels apart in the pictures are read; 0 = all; "
       "default "
       "1",
       [](Request& request, const std::string& text) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/las/laz/laz_layout.h"
 
 namespace splatray {

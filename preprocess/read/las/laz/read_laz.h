@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "preprocess/points.h"
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/las/las_columns.h"
 #include "preprocess/read/las/las_header.h"
 #include "preprocess/read/las/laz/laz_chunks.h"

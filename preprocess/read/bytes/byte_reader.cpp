@@ -1,4 +1,4 @@
-#include "preprocess/read/byte_reader.h"
+#include "preprocess/read/bytes/byte_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 /// Refuses what a download often is, whatever it is called. Of all float32 that a KITTI sweep may begin with, one in 16 million
 /// looks so.
-void refuse_archive(const std::filesystem::path& path, std::FILE* file) {
+void refuse_archive(const std::filesystem::path& path, ByteSource& source) {
   using namespace std::string_view_literals;
   struct Start {
     std::string_view bytes, what, instead;
@@ -32,41 +32,20 @@ void refuse_archive(const std::filesystem::path& path, std::FILE* file) {
        "7zXZ\0"sv,
        "a file packed by xz", "what is in it: unpack it with unxz"},
       {"<!DOCTYPE html"sv, "a web page", "points: the download gave a page instead"}};
-  std::array<char, 16> bytes{};
-  const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file);
-  const std::string_view begin(bytes.data(), got);
+  std::array<unsigned char, 16> bytes{};
+  const std::size_t got = source.read(0, bytes.data(), bytes.size());
+  const std::string_view begin(reinterpret_cast<const char*>(bytes.data()), got);
   for (const Start& start : STARTS)
     if (begin.starts_with(start.bytes))
       throw_unreadable(path, "found " + std::string(start.what) + ", expected " + std::string(start.instead));
-  std::rewind(file);
 }
 
 }  // namespace
 
 ByteReader::ByteReader(const std::filesystem::path& path, const ReadListener* listener)
-    : path_(path), listener_(listener) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw_unreadable(path, "no such file");
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw_unreadable(path, "found a directory, expected a file");
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw_unreadable(path, "not a regular file");
-  }
-  size_ = std::filesystem::file_size(path, error);
-  if (error || size_ == 0) {
-    throw_unreadable(path, error ? error.message() : "the file is empty");
-  }
+    : path_(path), listener_(listener), source_(open_source(path)), size_(source_->size()) {
   note_input(path);
-  file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!file_) {
-    throw_unreadable(path, "cannot be opened for reading");
-  }
-  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-  refuse_archive(path_, file_.get());
+  refuse_archive(path_, *source_);
   buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(size_, BLOCK_BYTES)));
 }
 
@@ -82,43 +61,39 @@ bool ByteReader::fill(std::size_t count) {
   if (count > buffer_.size()) {
     buffer_.resize(std::max(count, 2 * buffer_.size()));
   }
-  while (end_ < count) {
-    const std::size_t got = std::fread(buffer_.data() + end_, 1, buffer_.size() - end_, file_.get());
-    if (got == 0) {
-      return false;
-    }
-    end_ += got;
-  }
-  return true;
+  const std::size_t most = source_->is_near() ? buffer_.size() : count;
+  end_ += source_->read(offset_ + end_, buffer_.data() + end_, most - end_);
+  return end_ >= count;
 }
 
 void ByteReader::seek(std::uint64_t offset) {
-  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0)
-    throw_unreadable(path_, "byte " + std::to_string(offset) + " cannot be reached");
   begin_ = end_ = 0;
   offset_ = offset;
 }
 
 std::vector<unsigned char> ByteReader::read(std::uint64_t count) {
+  constexpr std::size_t MOST_AT_ONCE = 16 * BLOCK_BYTES;  // between which readers report
   std::vector<unsigned char> bytes(static_cast<std::size_t>(std::min(count, remaining())));
-  for (std::size_t done = 0; done < bytes.size();) {
-    const std::size_t step = std::min(bytes.size() - done, BLOCK_BYTES);
-    const unsigned char* block = take(step);
-    if (block == nullptr) throw_unreadable(path_, "it could not be read to its end");
-    std::memcpy(bytes.data() + done, block, step);
+  std::size_t done = std::min(bytes.size(), end_ - begin_);
+  if (done > 0) std::memcpy(bytes.data(), buffer_.data() + begin_, done);
+  begin_ += done;
+  offset_ += done;
+  while (done < bytes.size()) {
+    if (listener_ != nullptr) listener_->report(static_cast<double>(offset_) / static_cast<double>(size_));
+    const std::size_t step = std::min(bytes.size() - done, MOST_AT_ONCE);
+    if (source_->read(offset_, bytes.data() + done, step) < step)
+      throw_unreadable(path_, "it could not be read to its end");
     done += step;
+    offset_ += step;
   }
   return bytes;
 }
 
 bool ByteReader::skip(std::uint64_t count) {
-  while (count > 0) {
-    const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count, BLOCK_BYTES));
-    if (take(step) == nullptr) {
-      return false;
-    }
-    count -= step;
-  }
+  if (count > remaining()) return false;
+  const bool is_buffered = count <= end_ - begin_;
+  begin_ = is_buffered ? begin_ + static_cast<std::size_t>(count) : end_;
+  offset_ += count;
   return true;
 }
 

@@ -1,13 +1,13 @@
-/// Reads a file front to back in blocks, so that a reader's memory does not depend on the file's size.
+/// Reads a file, or what a URL names, front to back in blocks, so that a reader's memory does not depend on the file's size.
 #pragma once
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "preprocess/read/bytes/byte_source.h"
 #include "preprocess/read/read_listener.h"
 
 namespace splatray {
@@ -23,7 +23,7 @@ class ByteReader {
   /// Most bytes one take() may ask for.
   static constexpr std::size_t BLOCK_BYTES = std::size_t{1} << 20U;
 
-  /// Opens a regular file that is neither empty nor an archive; throws Error (input_unreadable) otherwise. `listener` hears of each block; it
+  /// Opens a regular file, or what a URL names, that is neither empty nor an archive; throws Error (input_unreadable) otherwise. `listener` hears of each block; it
   /// must live as long as this. All functions that read may so throw Error (interrupted).
   explicit ByteReader(const std::filesystem::path& path, const ReadListener* listener = nullptr);
 
@@ -69,12 +69,9 @@ class ByteReader {
   bool fill(std::size_t count);
   std::size_t end_of_line(std::size_t length, std::size_t max_bytes);
 
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   std::filesystem::path path_;
   const ReadListener* listener_;
-  std::unique_ptr<std::FILE, Close> file_;
+  std::unique_ptr<ByteSource> source_;
   std::vector<unsigned char> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

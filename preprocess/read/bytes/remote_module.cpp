@@ -1,0 +1,231 @@
+#include "preprocess/read/bytes/remote_module.h"
+
+#include <curl/curl.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/one_line.h"
+#include "preprocess/base/lower_case.h"
+
+namespace splatray {
+namespace {
+
+constexpr long HAS_PART = 206, BEHIND_END = 416;
+
+/// What an answer says of itself.
+struct Answer {
+  long status = 0;
+  std::uint64_t size = 0;  ///< of the whole, 0 = not said
+  std::string version;     ///< ETag, or the time of the last change
+  std::string version_by;  ///< which of these it is
+  unsigned char* to = nullptr;
+  std::size_t room = 0, got = 0;
+  CURL* handle = nullptr;
+
+  /// A header's value, without blanks and the line's end.
+  static std::string value_of(std::string_view line) {
+    line.remove_prefix(std::min(line.size(), line.find(':') + 1));
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    while (!line.empty() && line.back() <= ' ') line.remove_suffix(1);
+    return std::string(line);
+  }
+
+  void hear(std::string_view line) {
+    const std::string name = lower_case(std::string(line.substr(0, line.find(':'))));
+    if (name == "etag" || (name == "last-modified" && version_by != "etag")) {
+      version = value_of(line);
+      version_by = name;
+    }
+    if (name != "content-range") return;
+    const std::string range = value_of(line);
+    const char* const begin = range.data() + std::min(range.size(), range.find('/') + 1);
+    std::from_chars(begin, range.data() + range.size(), size);
+  }
+};
+
+std::size_t hear_header(char* line, std::size_t one, std::size_t count, void* answer) {
+  auto& heard = *static_cast<Answer*>(answer);
+  const std::string_view text(line, one * count);
+  if (text.starts_with("HTTP/")) heard.size = 0, heard.version.clear(), heard.version_by.clear();
+  heard.hear(text);
+  return one * count;
+}
+
+/// Keeps a part; anything else, as the whole of a large file, is not waited for.
+std::size_t keep_body(char* bytes, std::size_t one, std::size_t count, void* answer) {
+  auto& heard = *static_cast<Answer*>(answer);
+  curl_easy_getinfo(heard.handle, CURLINFO_RESPONSE_CODE, &heard.status);
+  if (heard.status != HAS_PART || heard.got + one * count > heard.room) return 0;
+  std::memcpy(heard.to + heard.got, bytes, one * count);
+  heard.got += one * count;
+  return one * count;
+}
+
+/// Whether the same request may succeed a moment later.
+bool may_pass(CURLcode code, long status) {
+  constexpr long SERVER_FAILS = 500, TOO_MANY = 429;
+  return code == CURLE_COULDNT_CONNECT || code == CURLE_OPERATION_TIMEDOUT || code == CURLE_RECV_ERROR ||
+         code == CURLE_SEND_ERROR || code == CURLE_GOT_NOTHING || code == CURLE_PARTIAL_FILE ||
+         status >= SERVER_FAILS || status == TOO_MANY;
+}
+
+class RemoteSource : public ByteSource {
+ public:
+  explicit RemoteSource(std::string url) : url_(std::move(url)), handle_(curl_easy_init()) {
+    if (handle_ == nullptr) refuse("libcurl could not be started");
+    set_options();
+    block_.resize(BLOCK_BYTES);
+    const Answer first = ask(0, block_.data(), block_.size());
+    size_ = first.size;
+    version_ = first.version;
+    if (first.status == BEHIND_END || size_ == 0)
+      refuse("the file is empty, or its server does not say how long it is");
+    block_.resize(first.got);
+  }
+  ~RemoteSource() override { curl_easy_cleanup(handle_); }
+
+  [[nodiscard]] std::uint64_t size() const override { return size_; }
+  [[nodiscard]] bool is_near() const override { return false; }
+
+  [[nodiscard]] std::size_t read(std::uint64_t offset, unsigned char* to, std::size_t count) override {
+    const std::lock_guard lock(mutex_);
+    if (offset >= size_) return 0;
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - offset));
+    std::size_t done = take_from_block(offset, to, wanted);
+    if (wanted - done >= BLOCK_BYTES) return done + part(offset + done, to + done, wanted - done);
+    while (done < wanted) {
+      next_block(offset + done);
+      const std::size_t got = take_from_block(offset + done, to + done, wanted - done);
+      if (got == 0) refuse("it could not be read to its end");
+      done += got;
+    }
+    return done;
+  }
+
+ private:
+  /// What a small read takes at once, and how much it takes of a file that is read front to back.
+  static constexpr std::size_t BLOCK_BYTES = std::size_t{1} << 16U, MOST_BLOCK_BYTES = std::size_t{1} << 22U;
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Error(ExitCode::input_unreadable, one_line(url_ + ": " + what));
+  }
+
+  void set_options() {
+    constexpr long CONNECT_S = 20, STALLED_S = 30, REDIRECTS = 5;
+    const bool is_safe = url_.starts_with("https:");
+    curl_easy_setopt(handle_, CURLOPT_URL, url_.c_str());
+    curl_easy_setopt(handle_, CURLOPT_PROTOCOLS_STR, "http,https");
+    curl_easy_setopt(handle_, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
+    curl_easy_setopt(handle_, CURLOPT_FOLLOWLOCATION, 1L);
+    curl_easy_setopt(handle_, CURLOPT_MAXREDIRS, REDIRECTS);
+    curl_easy_setopt(handle_, CURLOPT_NOSIGNAL, 1L);
+    curl_easy_setopt(handle_, CURLOPT_CONNECTTIMEOUT, CONNECT_S);
+    curl_easy_setopt(handle_, CURLOPT_LOW_SPEED_LIMIT, 1L);
+    curl_easy_setopt(handle_, CURLOPT_LOW_SPEED_TIME, STALLED_S);
+    curl_easy_setopt(handle_, CURLOPT_USERAGENT, "splatray");
+    curl_easy_setopt(handle_, CURLOPT_ERRORBUFFER, said_);
+    curl_easy_setopt(handle_, CURLOPT_HEADERFUNCTION, hear_header);
+    curl_easy_setopt(handle_, CURLOPT_WRITEFUNCTION, keep_body);
+    if (const char* bundle = std::getenv("CURL_CA_BUNDLE")) curl_easy_setopt(handle_, CURLOPT_CAINFO, bundle);
+  }
+
+  /// Bytes of the part from `offset` on. Throws where the server gives another part, or one of another file.
+  std::size_t part(std::uint64_t offset, unsigned char* to, std::size_t count) {
+    const Answer answer = ask(offset, to, count);
+    if (answer.size != size_ || answer.version != version_)
+      refuse("it has changed on its server while it was read");
+    if (answer.got != count) refuse("it could not be read to its end");
+    return count;
+  }
+
+  void next_block(std::uint64_t offset) {
+    const bool goes_on = offset == block_offset_ + block_.size();
+    const std::size_t usual = goes_on ? std::min(2 * block_.size(), MOST_BLOCK_BYTES) : BLOCK_BYTES;
+    block_.resize(
+        static_cast<std::size_t>(std::min<std::uint64_t>(std::max(usual, BLOCK_BYTES), size_ - offset)));
+    block_offset_ = offset;
+    static_cast<void>(part(offset, block_.data(), block_.size()));
+  }
+
+  std::size_t take_from_block(std::uint64_t offset, unsigned char* to, std::size_t count) const {
+    if (offset < block_offset_ || offset >= block_offset_ + block_.size()) return 0;
+    const auto at = static_cast<std::size_t>(offset - block_offset_);
+    const std::size_t got = std::min(count, block_.size() - at);
+    std::memcpy(to, block_.data() + at, got);
+    return got;
+  }
+
+  /// Asks for a part until it is given. The file's begin may be asked for before its size is known.
+  Answer ask(std::uint64_t offset, unsigned char* to, std::size_t count) {
+    constexpr int TRIES = 3;
+    for (int tried = 1;; ++tried) {
+      const auto [code, answer] = request(offset, to, count);
+      if (code == CURLE_OK && (answer.status == HAS_PART || answer.status == BEHIND_END)) return answer;
+      if (tried == TRIES || !may_pass(code, answer.status)) refuse(sentence(code, answer.status));
+      std::this_thread::sleep_for(std::chrono::milliseconds(400 * tried));
+    }
+  }
+
+  std::pair<CURLcode, Answer> request(std::uint64_t offset, unsigned char* to, std::size_t count) {
+    Answer answer;
+    answer.to = to;
+    answer.room = count;
+    answer.handle = handle_;
+    const std::string range = std::to_string(offset) + "-" + std::to_string(offset + count - 1);
+    said_[0] = '\0';
+    curl_easy_setopt(handle_, CURLOPT_RANGE, range.c_str());
+    curl_easy_setopt(handle_, CURLOPT_HEADERDATA, &answer);
+    curl_easy_setopt(handle_, CURLOPT_WRITEDATA, &answer);
+    const CURLcode code = curl_easy_perform(handle_);
+    curl_easy_getinfo(handle_, CURLINFO_RESPONSE_CODE, &answer.status);
+    return {code, answer};
+  }
+
+  [[nodiscard]] std::string sentence(CURLcode code, long status) const {
+    constexpr long WHOLE = 200, NOT_FOUND = 404, GONE = 410, FORBIDDEN = 403, UNAUTHORIZED = 401;
+    const std::string said = said_[0] != '\0' ? said_ : curl_easy_strerror(code);
+    if (code == CURLE_PEER_FAILED_VERIFICATION || code == CURLE_SSL_CACERT_BADFILE)
+      return "found a certificate that cannot be trusted (" + said +
+             "), expected one of a known authority (CURL_CA_BUNDLE names a file of others)";
+    if (code == CURLE_TOO_MANY_REDIRECTS) return "found more than 5 redirects, expected the file";
+    if (code == CURLE_UNSUPPORTED_PROTOCOL)
+      return "found a redirect away from https, expected the file (" + said + ")";
+    if (status == WHOLE)
+      return "found a server that gives no parts of files, expected one with ranges: download the file";
+    if (status == NOT_FOUND || status == GONE) return "no such file on this server";
+    if (status == FORBIDDEN || status == UNAUTHORIZED)
+      return "found a server that does not give it (HTTP " + std::to_string(status) +
+             "), expected to be allowed";
+    if (code == CURLE_OK || status >= 400)
+      return "found the answer HTTP " + std::to_string(status) + ", expected 206";
+    return "its server does not answer (" + said + ")";
+  }
+
+  std::string url_;
+  CURL* handle_;
+  char said_[CURL_ERROR_SIZE] = {};
+  std::mutex mutex_;
+  std::uint64_t size_ = 0;
+  std::string version_;
+  std::vector<unsigned char> block_;  ///< a part that is kept, as small reads follow one another
+  std::uint64_t block_offset_ = 0;
+};
+
+}  // namespace
+}  // namespace splatray
+
+void splatray_open_remote(const std::string& url, std::unique_ptr<splatray::ByteSource>& source) {
+  static const CURLcode started = curl_global_init(CURL_GLOBAL_DEFAULT);
+  if (started != CURLE_OK)
+    throw splatray::Error(splatray::ExitCode::input_unreadable, url + ": libcurl could not be started");
+  source = std::make_unique<splatray::RemoteSource>(url);
+}

@@ -1,0 +1,221 @@
+#include "preprocess/read/tiles/ept.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+#include <span>
+
+#include "engine/base/crs.h"
+#include "engine/base/error.h"
+#include "preprocess/base/level_facts.h"
+#include "preprocess/base/point_arrays.h"
+#include "preprocess/read/bytes/byte_reader.h"
+#include "preprocess/read/las/read_las.h"
+#include "preprocess/read/tiles/read_json.h"
+
+namespace splatray {
+namespace {
+
+using Json = nlohmann::json;
+using Path = std::filesystem::path;
+
+/// What an `ept.json` says of the whole.
+struct Head {
+  Json json;
+  glm::dvec3 low{0.0};
+  double edge = 0.0;  ///< of the root's cube
+  std::array<glm::dvec3, 2> box{};
+  std::string crs;
+};
+
+std::array<glm::dvec3, 2> box_of(const Path& path, const Json& json, const char* name) {
+  const Json numbers = json.value(name, Json());
+  if (!numbers.is_array() || numbers.size() != 6 ||
+      !std::all_of(numbers.begin(), numbers.end(), [](const Json& n) { return n.is_number(); }))
+    throw_unreadable(path, "found no " + std::string(name) + " of six numbers, expected an ept.json");
+  const auto corner = [&](std::size_t at) {
+    return glm::dvec3(numbers[at].get<double>(), numbers[at + 1].get<double>(),
+                      numbers[at + 2].get<double>());
+  };
+  return {corner(0), corner(3)};
+}
+
+Head read_head(const Path& path) {
+  Head head;
+  head.json = read_json(path);
+  if (!head.json.is_object()) throw_unreadable(path, "found no object, expected an ept.json");
+  const auto [low, high] = box_of(path, head.json, "bounds");
+  head.low = low;
+  head.edge = high.x - low.x;
+  if (!(head.edge > 0.0)) throw_unreadable(path, "found an octree without a size, expected a positive one");
+  head.box = head.json.contains("boundsConforming") ? box_of(path, head.json, "boundsConforming")
+                                                    : std::array{low, high};
+  const Json type = head.json.value("dataType", Json());
+  if (type != "laszip")
+    throw_unreadable(path, "found tiles of the type " + type.dump() + ", expected \"laszip\"");
+  const Json system = head.json.value("srs", Json::object());
+  const Json text = system.is_object() ? system.value("wkt", Json()) : Json();
+  if (text.is_string()) head.crs = text.get<std::string>();
+  return head;
+}
+
+/// "1-0-1-1", what a node's file is called.
+std::string name_of(const LevelNode& node) {
+  return std::to_string(node.level) + '-' + std::to_string(node.cell.x) + '-' + std::to_string(node.cell.y) +
+         '-' + std::to_string(node.cell.z);
+}
+
+/// The node that a name means; nothing where it is none.
+std::optional<LevelNode> node_of(const std::string& name) {
+  std::array<std::uint32_t, 4> numbers{};
+  const char* at = name.data();
+  const char* const end = at + name.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0 && (at == end || *at++ != '-')) return std::nullopt;
+    const auto [next, fault] = std::from_chars(at, end, numbers[i]);
+    if (fault != std::errc{}) return std::nullopt;
+    at = next;
+  }
+  LevelNode node{numbers[0], {numbers[1], numbers[2], numbers[3]}};
+  return at == end && node.lies_in_octree() ? std::optional(node) : std::nullopt;
+}
+
+class HierarchyReader {
+ public:
+  explicit HierarchyReader(Path path) : path_(std::move(path)) {}
+
+  std::vector<LevelNode> read() {
+    for (std::size_t i = 0; i < pages_.size(); ++i) read_page(pages_[i]);
+    if (const auto fault = link_levels(nodes_))
+      throw_unreadable(path_, "found in its hierarchy " + *fault + ", expected an octree");
+    return std::move(nodes_);
+  }
+
+ private:
+  void read_page(const std::string& root) {
+    const Path page = path_.parent_path() / "ept-hierarchy" / (root + ".json");
+    const Json counts = read_json(page);
+    if (!counts.is_object()) throw_unreadable(page, "found no object, expected counts of points by node");
+    for (const auto& [name, count] : counts.items()) add(page, name, count);
+  }
+
+  void add(const Path& page, const std::string& name, const Json& count) {
+    constexpr std::int64_t IS_PAGE = -1;  // instead of a count: more of the hierarchy is there
+    std::optional<LevelNode> node = node_of(name);
+    if (!node || !count.is_number_integer() || count.get<std::int64_t>() < IS_PAGE)
+      throw_unreadable(page, "found the entry '" + name + "' with " + count.dump() +
+                                 ", expected a node of an octree and a count");
+    if (count.get<std::int64_t>() != IS_PAGE) {
+      node->points = count.get<std::uint64_t>();
+      nodes_.push_back(*node);
+    } else if (seen_.insert(name).second) {
+      pages_.push_back(name);
+    } else {
+      throw_unreadable(page, "found the page '" + name + "' twice, expected each once");
+    }
+  }
+
+  Path path_;
+  std::vector<std::string> pages_{"0-0-0-0"};
+  std::set<std::string> seen_{"0-0-0-0"};
+  std::vector<LevelNode> nodes_;
+};
+
+Levels levels_of_head(const Path& path, const Head& head) {
+  return {head.low, head.edge, HierarchyReader(path).read()};
+}
+
+/// A node's points, or why there are none.
+struct Tile {
+  ScanFile file;
+  std::vector<std::string> notes;
+};
+
+Tile read_tile(const Path& path, const LevelNode& node, const ReadOptions& options) {
+  const Path place = path.parent_path() / "ept-data" / (name_of(node) + ".laz");
+  const Progress none;
+  Tile tile;
+  try {
+    tile.file = read_las(place, options, {tile.notes, none});
+  } catch (const Error& error) {
+    if (options.scans.strict || error.code() != ExitCode::input_unreadable) throw;
+    tile.notes.emplace_back(error.what());
+    tile.file.counts = {node.points, node.points};
+    return tile;
+  }
+  if (tile.file.counts.stored != node.points) {
+    const std::string found = "found " + std::to_string(tile.file.counts.stored) + " points, expected the " +
+                              std::to_string(node.points) + " that the hierarchy counts";
+    if (options.scans.strict) throw_unreadable(place, found);
+    tile.notes.push_back(place.string() + ": " + found);
+  }
+  return tile;
+}
+
+/// The nodes that are chosen and have points.
+std::vector<LevelNode> chosen_nodes(const Path& path, const Levels& levels, const ChosenNodes& chosen) {
+  std::vector<std::uint32_t> which(levels.nodes.size());
+  std::iota(which.begin(), which.end(), 0U);
+  if (const auto found = chosen.find(path); found != chosen.end()) which = found->second;
+  if (!which.empty() && which.back() >= levels.nodes.size())
+    throw_unreadable(path, "found " + std::to_string(levels.nodes.size()) +
+                               " nodes in its hierarchy, expected more: it has changed");
+  std::vector<LevelNode> nodes;
+  for (const std::uint32_t i : which)
+    if (levels.nodes[i].points > 0) nodes.push_back(levels.nodes[i]);
+  return nodes;
+}
+
+void add(ScanFile& to, Tile&& tile, const ReadListener& listener) {
+  for (std::string& note : tile.notes) listener.notes.push_back(std::move(note));
+  if (to.points.crs.empty()) to.points.crs = tile.file.points.crs;
+  to.counts += tile.file.counts;
+  to.in_degrees = to.in_degrees ? to.in_degrees : tile.file.in_degrees;
+  append_points(to.points, std::move(tile.file.points));
+}
+
+/// Reads some nodes at a time, each in a thread; all in their order.
+void read_nodes(const Path& path, std::span<const LevelNode> nodes, const ReadOptions& options,
+                const ReadListener& listener, ScanFile& file) {
+  const std::size_t at_once =
+      2 * tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  for (std::size_t done = 0; done < nodes.size(); done += at_once) {
+    listener.report(static_cast<double>(done) / static_cast<double>(nodes.size()));
+    const std::span<const LevelNode> some = nodes.subspan(done, std::min(at_once, nodes.size() - done));
+    std::vector<Tile> tiles(some.size());
+    tbb::parallel_for(std::size_t{0}, some.size(),
+                      [&](std::size_t i) { tiles[i] = read_tile(path, some[i], options); });
+    for (Tile& tile : tiles) add(file, std::move(tile), listener);
+    listener.show(file.points);
+  }
+}
+
+}  // namespace
+
+Levels ept_levels(const Path& path) {
+  const Head head = read_head(path);
+  return describe_crs(head.crs).is_degrees ? Levels{} : levels_of_head(path, head);
+}
+
+ScanFile read_ept(const Path& path, const ReadOptions& options, const ReadListener& listener) {
+  const Head head = read_head(path);
+  const Levels levels = levels_of_head(path, head);
+  ScanFile file;
+  const Json version = head.json.value("version", Json());
+  file.facts = {{"version", "EPT " + (version.is_string() ? version.get<std::string>() : "of no version")}};
+  add_level_facts(levels, "EPT", file.facts);
+  file.said_box = head.box;
+  file.points.crs = head.crs;
+  file.counts.stored = options.heads_only ? levels.points() : 0;
+  if (!options.heads_only)
+    read_nodes(path, chosen_nodes(path, levels, options.nodes), options, listener, file);
+  return file;
+}
+
+}  // namespace splatray
