@@ -78,11 +78,40 @@ bool may_pass(CURLcode code, long status) {
          status >= SERVER_FAILS || status == TOO_MANY;
 }
 
+struct Close {
+  void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
+};
+using Handle = std::unique_ptr<CURL, Close>;
+
+/// Handles that no request uses now. Each keeps its connections, so that tiles of one server need none of their own.
+class IdleHandles {
+ public:
+  Handle take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return Handle(curl_easy_init());
+    Handle handle = std::move(idle_.back());
+    idle_.pop_back();
+    curl_easy_reset(handle.get());
+    return handle;
+  }
+  void give(Handle handle) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(handle));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Handle> idle_;
+};
+
+IdleHandles& idle_handles() {
+  static IdleHandles handles;
+  return handles;
+}
+
 class RemoteSource : public ByteSource {
  public:
-  explicit RemoteSource(std::string url) : url_(std::move(url)), handle_(curl_easy_init()) {
-    if (handle_ == nullptr) refuse("libcurl could not be started");
-    set_options();
+  explicit RemoteSource(std::string url) : url_(std::move(url)) {
     block_.resize(BLOCK_BYTES);
     const Answer first = ask(0, block_.data(), block_.size());
     size_ = first.size;
@@ -91,7 +120,6 @@ class RemoteSource : public ByteSource {
       refuse("the file is empty, or its server does not say how long it is");
     block_.resize(first.got);
   }
-  ~RemoteSource() override { curl_easy_cleanup(handle_); }
 
   [[nodiscard]] std::uint64_t size() const override { return size_; }
   [[nodiscard]] bool is_near() const override { return false; }
@@ -119,23 +147,24 @@ class RemoteSource : public ByteSource {
     throw Error(ExitCode::input_unreadable, one_line(url_ + ": " + what));
   }
 
-  void set_options() {
+  /// What every request has.
+  void set_options(CURL* handle) {
     constexpr long CONNECT_S = 20, STALLED_S = 30, REDIRECTS = 5;
     const bool is_safe = url_.starts_with("https:");
-    curl_easy_setopt(handle_, CURLOPT_URL, url_.c_str());
-    curl_easy_setopt(handle_, CURLOPT_PROTOCOLS_STR, "http,https");
-    curl_easy_setopt(handle_, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
-    curl_easy_setopt(handle_, CURLOPT_FOLLOWLOCATION, 1L);
-    curl_easy_setopt(handle_, CURLOPT_MAXREDIRS, REDIRECTS);
-    curl_easy_setopt(handle_, CURLOPT_NOSIGNAL, 1L);
-    curl_easy_setopt(handle_, CURLOPT_CONNECTTIMEOUT, CONNECT_S);
-    curl_easy_setopt(handle_, CURLOPT_LOW_SPEED_LIMIT, 1L);
-    curl_easy_setopt(handle_, CURLOPT_LOW_SPEED_TIME, STALLED_S);
-    curl_easy_setopt(handle_, CURLOPT_USERAGENT, "splatray");
-    curl_easy_setopt(handle_, CURLOPT_ERRORBUFFER, said_);
-    curl_easy_setopt(handle_, CURLOPT_HEADERFUNCTION, hear_header);
-    curl_easy_setopt(handle_, CURLOPT_WRITEFUNCTION, keep_body);
-    if (const char* bundle = std::getenv("CURL_CA_BUNDLE")) curl_easy_setopt(handle_, CURLOPT_CAINFO, bundle);
+    curl_easy_setopt(handle, CURLOPT_URL, url_.c_str());
+    curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");
+    curl_easy_setopt(handle, CURLOPT_REDIR_PROTOCOLS_STR, is_safe ? "https" : "http,https");
+    curl_easy_setopt(handle, CURLOPT_FOLLOWLOCATION, 1L);
+    curl_easy_setopt(handle, CURLOPT_MAXREDIRS, REDIRECTS);
+    curl_easy_setopt(handle, CURLOPT_NOSIGNAL, 1L);
+    curl_easy_setopt(handle, CURLOPT_CONNECTTIMEOUT, CONNECT_S);
+    curl_easy_setopt(handle, CURLOPT_LOW_SPEED_LIMIT, 1L);
+    curl_easy_setopt(handle, CURLOPT_LOW_SPEED_TIME, STALLED_S);
+    curl_easy_setopt(handle, CURLOPT_USERAGENT, "splatray");
+    curl_easy_setopt(handle, CURLOPT_ERRORBUFFER, said_);
+    curl_easy_setopt(handle, CURLOPT_HEADERFUNCTION, hear_header);
+    curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, keep_body);
+    if (const char* bundle = std::getenv("CURL_CA_BUNDLE")) curl_easy_setopt(handle, CURLOPT_CAINFO, bundle);
   }
 
   /// Bytes of the part from `offset` on. Throws where the server gives another part, or one of another file.
@@ -176,17 +205,21 @@ class RemoteSource : public ByteSource {
   }
 
   std::pair<CURLcode, Answer> request(std::uint64_t offset, unsigned char* to, std::size_t count) {
+    Handle handle = idle_handles().take();
+    if (handle == nullptr) refuse("libcurl could not be started");
+    set_options(handle.get());
     Answer answer;
     answer.to = to;
     answer.room = count;
-    answer.handle = handle_;
+    answer.handle = handle.get();
     const std::string range = std::to_string(offset) + "-" + std::to_string(offset + count - 1);
     said_[0] = '\0';
-    curl_easy_setopt(handle_, CURLOPT_RANGE, range.c_str());
-    curl_easy_setopt(handle_, CURLOPT_HEADERDATA, &answer);
-    curl_easy_setopt(handle_, CURLOPT_WRITEDATA, &answer);
-    const CURLcode code = curl_easy_perform(handle_);
-    curl_easy_getinfo(handle_, CURLINFO_RESPONSE_CODE, &answer.status);
+    curl_easy_setopt(handle.get(), CURLOPT_RANGE, range.c_str());
+    curl_easy_setopt(handle.get(), CURLOPT_HEADERDATA, &answer);
+    curl_easy_setopt(handle.get(), CURLOPT_WRITEDATA, &answer);
+    const CURLcode code = curl_easy_perform(handle.get());
+    curl_easy_getinfo(handle.get(), CURLINFO_RESPONSE_CODE, &answer.status);
+    idle_handles().give(std::move(handle));
     return {code, answer};
   }
 
@@ -211,7 +244,6 @@ class RemoteSource : public ByteSource {
   }
 
   std::string url_;
-  CURL* handle_;
   char said_[CURL_ERROR_SIZE] = {};
   std::mutex mutex_;
   std::uint64_t size_ = 0;
