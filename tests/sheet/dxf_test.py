@@ -13,6 +13,8 @@ from pypi_python import EZDXF, pypi_python
 render, measure, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 LOW, HIGH = (1000.0, 2000.0, 100.0), (1002.0, 2001.0, 101.2)
 BALL, RADIUS = (1005.0, 2000.5, 100.5), 0.4
+# Boards of 0.5 x 0.4 below the cut and above it: corner and height.
+BOARD_BELOW, BOARD_ABOVE, BOARD = (1000.3, 2000.3, 100.3), (1001.2, 2000.3, 101.0), (0.5, 0.4)
 
 READ = """
 import json, sys
@@ -32,7 +34,7 @@ print(json.dumps({
 
 
 def write_points(path):
-    """Points on the sides of a box, and on a ball beside it."""
+    """Points on the sides of a box, on boards in it, and on a ball beside it."""
     golden = math.pi * (3 - math.sqrt(5))
     with open(path, "w") as file:
         for axis in range(3):
@@ -43,6 +45,9 @@ def write_points(path):
                 for n, step, count in ((a, i, counts[0]), (b, j, counts[1])):
                     p[n] = LOW[n] + (HIGH[n] - LOW[n]) * (step + 0.5) / count
                 file.write(" ".join(f"{v:.5f}" for v in p) + "\n")
+        for board in BOARD_BELOW, BOARD_ABOVE:
+            for i, j in itertools.product(range(50), range(40)):
+                file.write(f"{board[0] + 0.01 * (i + 0.5):.5f} {board[1] + 0.01 * (j + 0.5):.5f} {board[2]:.5f}\n")
         for i in range(8000):
             z = 1 - (2 * i + 1) / 8000
             r = math.sqrt(1 - z * z)
@@ -76,6 +81,12 @@ def main():
     print("areas of what is cut:", cut)
     assert len(cut) == 2 and all(closed for _, closed in cut), cut
     assert abs(cut[1][0] - 2.0) < 0.01 and abs(cut[0][0] - math.pi * (RADIUS ** 2 - 0.1 ** 2)) < 0.005, cut
+    for layer, board in ("BEYOND", BOARD_BELOW), ("HIDDEN", BOARD_ABOVE):
+        (closed, points_of_line), = [(closed, line) for name, closed, line in found["polylines"] if name == layer]
+        around = area([[x - board[0], y - board[1]] for x, y in points_of_line])
+        print(f"{layer}: {len(points_of_line)} corners around {abs(around):.4f}")
+        # Of the points 0.49 x 0.39; discs may reach over them by up to their radius.
+        assert closed and len(points_of_line) <= 8 and 0.185 < abs(around) < 0.215, points_of_line
     print("lines of the hatch:", len(found["hatch"]))
     assert len(found["hatch"]) > 20 and all(0 < math.dist(*line) < 1.5 for line in found["hatch"])
     assert ["TEXT", "Haus \u00c4 \u2300"] in found["texts"] and ["TEXT", "1 : 50"] in found["texts"], found["texts"]

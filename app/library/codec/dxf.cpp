@@ -36,6 +36,7 @@ enum Handle : unsigned {
   ROOT_DICTIONARY,
   GROUPS,
   VIEWPORT,
+  DASHED,
   FIRST_LAYER = 0x100
 };
 
@@ -116,13 +117,23 @@ void add_record(std::ostream& out, const char* type, unsigned handle, Handle tab
 
 void end_table(std::ostream& out) { add(out, {{0, "ENDTAB"}}); }
 
-void add_line_types(std::ostream& out) {
-  add_table(out, "LTYPE", LTYPES, 3);
+/// `dash`: the length of a dash.
+void add_line_types(std::ostream& out, double dash) {
+  add_table(out, "LTYPE", LTYPES, 4);
   for (const auto& [name, handle] :
        {std::pair("ByBlock", BY_BLOCK), {"ByLayer", BY_LAYER}, {"Continuous", CONTINUOUS}}) {
     add_record(out, "LTYPE", handle, LTYPES, "AcDbLinetypeTableRecord", name);
     add(out, {{3, ""}, {72, "65"}, {73, "0"}, {40, "0"}});
   }
+  add_record(out, "LTYPE", DASHED, LTYPES, "AcDbLinetypeTableRecord", "DASHED");
+  add(out, {{3, "__ __ __"},
+            {72, "65"},
+            {73, "2"},
+            {40, number_text(1.5 * dash)},
+            {49, number_text(dash)},
+            {74, "0"},
+            {49, number_text(-0.5 * dash)},
+            {74, "0"}});
   end_table(out);
 }
 
@@ -131,7 +142,7 @@ void add_layers(std::ostream& out, const std::vector<DxfLayer>& layers) {
   for (std::size_t i = 0; i < layers.size(); ++i) {
     add_record(out, "LAYER", FIRST_LAYER + static_cast<unsigned>(i), LAYERS, "AcDbLayerTableRecord",
                layers[i].name);
-    add(out, {{62, std::to_string(layers[i].color)}, {6, "Continuous"}});
+    add(out, {{62, std::to_string(layers[i].color)}, {6, layers[i].dash > 0.0 ? "DASHED" : "Continuous"}});
   }
   end_table(out);
 }
@@ -165,7 +176,10 @@ void add_tables(std::ostream& out, const std::vector<DxfLayer>& layers, const gl
                 const glm::dvec3& high) {
   add(out, {{0, "SECTION"}, {2, "TABLES"}});
   add_viewport(out, low, high);
-  add_line_types(out);
+  double dash = 1.0;
+  for (const DxfLayer& layer : layers)
+    if (layer.dash > 0.0) dash = layer.dash;
+  add_line_types(out, dash);
   add_layers(out, layers);
   add_table(out, "STYLE", STYLES, 1);
   add_record(out, "STYLE", STANDARD_STYLE, STYLES, "AcDbTextStyleTableRecord", "Standard");

@@ -10,7 +10,8 @@ namespace splatray {
 
 struct DxfLayer {
   std::string name;
-  int color = 7;  ///< AutoCAD's colour index, 7 = black on white
+  int color = 7;      ///< AutoCAD's colour index, 7 = black on white
+  double dash = 0.0;  ///< length of its lines' dashes, twice that of the gaps; 0 = they have none
 };
 
 /// A DXF in the making. Places and lengths are of the drawing's unit, z up. A text's letters beyond ASCII become \U+ escapes; those

@@ -9,6 +9,7 @@
 #include "app/library/picture/xray.h"
 #include "app/library/sheet/draw_cut.h"
 #include "app/library/sheet/ink.h"
+#include "app/library/sheet/seen_lines.h"
 #include "app/library/shot/picture_lights.h"
 #include "engine/base/stopwatch.h"
 #include "engine/image/fireflies.h"
@@ -69,11 +70,33 @@ MadePicture traced_picture(const Shot& shot, SceneOnDevice& shown, const Camera&
   return made;
 }
 
+/// What the rays through the centres of a sheet's pixels hit that shows what is above the cut of the shot's.
+std::vector<AovPixel> overhead_aov(const Shot& shot, const Sheet& sheet, const Sheet& above,
+                                   SceneOnDevice& shown) {
+  Settings settings = shot.settings;
+  std::vector<HalfSpace>& kept = settings.region.kept;
+  kept.erase(kept.end() - static_cast<std::ptrdiff_t>(sheet.planes().size()), kept.end());
+  for (const HalfSpace& plane : above.planes()) kept.push_back(plane);
+  return shown.tracer().trace_aov(shown.look(), {above.camera(), above.width, above.height}, settings);
+}
+
+/// The whole sheet with the lines of what is seen on it, `aov` what its pixels show where that is known.
+Sheet sheet_with_lines(const Shot& shot, const Sheet& sheet, SceneOnDevice& shown,
+                       const std::vector<AovPixel>& aov) {
+  Sheet drawn = sheet;
+  const View view{shot.view.camera, sheet.width, sheet.height};
+  drawn.beyond =
+      seen_lines(sheet, aov.empty() ? shown.tracer().trace_aov(shown.look(), view, shot.settings) : aov);
+  if (sheet.asked.kind != SheetKind::plan || !sheet.cuts) return drawn;
+  const Sheet above = overhead_sheet(sheet);
+  drawn.overhead = mirrored(seen_lines(above, overhead_aov(shot, sheet, above, shown)));
+  return drawn;
+}
+
 /// Lines of a sheet's part, for which more of the sheet is seen than the part.
 void draw_lines(const Shot& shot, const Sheet& sheet, SceneOnDevice& shown, const PixelWindow& part,
                 Image& image) {
   const PixelWindow window = ink_window(sheet, part);
-  if (window == part && !image.aov.empty()) return draw_ink(sheet, {window, image.aov}, part, image);
   const std::vector<AovPixel> aov = shown.tracer().trace_aov(
       shown.look(), {shot.view.camera, sheet.width, sheet.height, window}, shot.settings);
   draw_ink(sheet, {window, aov}, part, image);
@@ -88,7 +111,10 @@ MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& c
   const PixelWindow window = shot.view.made();
   MadePicture made;
   made.devices = device_text(shown.device());
-  if (lower_extension(shot.request.output.path) == ".dxf") return made;  // has no pixels
+  if (lower_extension(shot.request.output.path) == ".dxf") {  // has no pixels
+    made.sheet = sheet_with_lines(shot, *sheet, shown, {});
+    return made;
+  }
   if (shot.request.view.xray) {
     made.image =
         xray_image(shown.scene(), shown.look().materials, *sheet, window, shot.settings.region, progress);
@@ -96,9 +122,11 @@ MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& c
     made = traced_picture(shot, shown, camera, progress, stopped);
   }
   if (made.samples_missing > 0) return made;
-  if (shot.request.view.ink) draw_lines(shot, *sheet, shown, window, made.image);
+  const bool is_whole = shot.view.window.width == 0;
+  if (shot.request.view.ink && is_whole) made.sheet = sheet_with_lines(shot, *sheet, shown, made.image.aov);
+  if (shot.request.view.ink && !is_whole) draw_lines(shot, *sheet, shown, window, made.image);
   clear_solids(*sheet, window, made.image);
-  if (!is_line_format(shot.request.output.path)) draw_cut(*sheet, window, made.image);
+  if (!is_line_format(shot.request.output.path)) draw_cut(made.sheet.value_or(*sheet), window, made.image);
   return made;
 }
 

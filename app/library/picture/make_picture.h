@@ -1,5 +1,6 @@
 /// The one way from a shot and a scene on a device to a picture.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct MadePicture {
   double denoise_ms = 0.0;         ///< 0 where none did
   /// Samples a pixel that were asked for and not made, as it was stopped and kept; then no denoiser had it.
   std::uint32_t samples_missing = 0;
-  std::string devices;  ///< that made its samples, as picture_metadata names them
+  std::optional<Sheet> sheet{};  ///< the drawing with its lines, of a sheet that has them as curves
+  std::string devices;           ///< that made its samples, as picture_metadata names them
 };
 
 /// The shot's picture from a camera, in its lights (picture_lights.h): by samples or until it is good enough, from those of --resume

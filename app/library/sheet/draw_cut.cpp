@@ -6,6 +6,7 @@
 #include "app/library/cut/cut_hatch.h"
 #include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/page_style.h"
+#include "app/library/sheet/seen_lines.h"
 
 namespace splatray {
 namespace {
@@ -36,6 +37,9 @@ std::vector<Segment> segments_of(const Sheet& sheet, const PixelWindow& window) 
       segments.push_back({sheet.pixel_of(curve.points[(i + count - 1) % count]) - first,
                           sheet.pixel_of(curve.points[i]) - first, pixels(width_mm)});
   };
+  for (const CutCurve& curve : sheet.beyond) add_curve(curve, SEEN_LINE_MM);
+  for (const CutCurve& curve : sheet.overhead)
+    for (const CutCurve& dash : dashed(curve, sheet.mm_world())) add_curve(dash, SEEN_LINE_MM);
   for (const CutCurve& curve : sheet.cut_curves) add_curve(curve, sheet.asked.weight_mm);
   for (const Contour& contour : sheet.contours) add_curve(contour.curve, contour_width_mm(sheet, contour));
   for (const auto& [from, to] : sheet.hatch)
@@ -62,9 +66,10 @@ void cover(const Segment& segment, const PixelWindow& window, std::vector<float>
 }  // namespace
 
 void draw_cut(const Sheet& sheet, const PixelWindow& window, Image& image) {
-  if (sheet.cut_curves.empty() && sheet.contours.empty()) return;
+  const std::vector<Segment> segments = segments_of(sheet, window);
+  if (segments.empty()) return;
   std::vector<float> covered(image.rgba.size(), 0.0F);
-  for (const Segment& segment : segments_of(sheet, window)) cover(segment, window, covered);
+  for (const Segment& segment : segments) cover(segment, window, covered);
   for (std::size_t i = 0; i < covered.size(); ++i)
     image.rgba[i] = vec4(0.0F, 0.0F, 0.0F, covered[i]) + (1.0F - covered[i]) * image.rgba[i];
 }

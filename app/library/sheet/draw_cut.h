@@ -1,4 +1,4 @@
-/// The lines of a sheet in its picture: of what it cuts, with its hatching, and contours.
+/// The lines of a sheet in its picture: of what it cuts, with its hatching, of what is seen, and contours.
 #pragma once
 #include <vector>
 

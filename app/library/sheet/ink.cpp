@@ -2,58 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <vector>
+
 #include "app/library/sheet/draw_cut.h"
+#include "app/library/sheet/edges.h"
+#include "app/library/sheet/page_style.h"
 
 namespace splatray {
 namespace {
 
-constexpr double LINE_MM = 0.18;        ///< width of a line on paper
-constexpr double DEPTH_PIXELS = 6.0;    ///< a step of depth that is a line, pixels
-constexpr float CREASE_COSINE = 0.77F;  ///< of 40 degrees
 constexpr float CREASE_INK = 0.6F;
-/// Steepest surface, as the cosine towards the paper, whose slope is followed.
-constexpr float STEEPEST = 0.1F;
 
 /// How much of a line is between a pixel and the next one at (dx, dy).
-class Edges {
- public:
-  Edges(const Sheet& sheet, std::span<const AovPixel> aov)
-      : aov_(aov),
-        right_(sheet.right),
-        top_(sheet.top),
-        toward_(sheet.toward),
-        pixel_(static_cast<float>(sheet.pixel_world)) {}
-
-  [[nodiscard]] float between(std::size_t a, std::size_t b, float dx, float dy) const {
-    const AovPixel &first = aov_[a], &second = aov_[b];
-    const bool hit = first.object != NO_OBJECT, hit_too = second.object != NO_OBJECT;
-    if (hit != hit_too) return 1.0F;
-    if (!hit) return 0.0F;
-    if (first.object != second.object) return 1.0F;
-    const float step = second.z - first.z;
-    const float off = std::min(std::abs(step - slope(first, dx, dy)), std::abs(step - slope(second, dx, dy)));
-    if (off > static_cast<float>(DEPTH_PIXELS) * pixel_) return 1.0F;
-    return glm::dot(first.normal, second.normal) < CREASE_COSINE ? CREASE_INK : 0.0F;
-  }
-
- private:
-  /// What the depth of the surface changes by over a step on the paper.
-  [[nodiscard]] float slope(const AovPixel& at, float dx, float dy) const {
-    const float facing = glm::dot(at.normal, toward_);
-    const float across = glm::dot(at.normal, right_) * dx + glm::dot(at.normal, top_) * dy;
-    return across / std::copysign(std::max(std::abs(facing), STEEPEST), facing) * pixel_;
-  }
-
-  std::span<const AovPixel> aov_;
-  vec3 right_, top_, toward_;
-  float pixel_;
-};
+float ink_between(const Edges& edges, std::size_t a, std::size_t b, float dx, float dy) {
+  const float step = edges.step(a, b, dx, dy);
+  if (step > EDGE_STEP) return 1.0F;
+  return edges.show_one(a, b) && edges.cosine(a, b) < CREASE_COSINE ? CREASE_INK : 0.0F;
+}
 
 /// How far around a pixel a line on it reaches.
 std::uint32_t reach_px(const Sheet& sheet) {
-  return static_cast<std::uint32_t>(std::max(std::lround((LINE_MM / sheet.pixel_mm() - 1.0) / 2.0), 0L));
+  return static_cast<std::uint32_t>(std::max(std::lround((SEEN_LINE_MM / sheet.pixel_mm() - 1.0) / 2.0), 0L));
 }
 
 /// Lines one pixel wide, 0 to 1 for each.
@@ -70,8 +39,8 @@ std::vector<float> thin_lines(const Sheet& sheet, const SeenPixels& seen) {
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t at = y * width + x;
-      if (x + 1 < width) mark(at, at + 1, edges.between(at, at + 1, 1.0F, 0.0F));
-      if (y + 1 < height) mark(at, at + width, edges.between(at, at + width, 0.0F, -1.0F));
+      if (x + 1 < width) mark(at, at + 1, ink_between(edges, at, at + 1, 1.0F, 0.0F));
+      if (y + 1 < height) mark(at, at + width, ink_between(edges, at, at + width, 0.0F, -1.0F));
     }
   return ink;
 }

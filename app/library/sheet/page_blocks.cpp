@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/measure_table.h"

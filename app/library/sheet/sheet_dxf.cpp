@@ -3,6 +3,7 @@
 #include "app/library/codec/dxf.h"
 #include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/measure_marks.h"
+#include "app/library/sheet/page_style.h"
 
 namespace splatray {
 namespace {
@@ -27,6 +28,14 @@ void add_measure(const Sheet& sheet, std::size_t id, const Measure& measure, dou
            std::to_string(id) + ": " + labelled_text(measure, measure_frame(sheet)));
 }
 
+void add_curves(const Sheet& sheet, const std::vector<CutCurve>& curves, const char* layer, DxfWriter& dxf) {
+  for (const CutCurve& curve : curves) {
+    std::vector<glm::dvec2> points = curve.points;
+    for (glm::dvec2& point : points) point -= sheet.origin;
+    dxf.polyline(layer, points, curve.closed);
+  }
+}
+
 /// Contours at their heights, and level marks beside an upright sheet.
 void add_heights(const Sheet& sheet, double letter_height, DxfWriter& dxf) {
   for (const Contour& contour : sheet.contours) {
@@ -46,19 +55,18 @@ void add_heights(const Sheet& sheet, double letter_height, DxfWriter& dxf) {
 }  // namespace
 
 std::string sheet_dxf(const Sheet& sheet, const PageWords& words, std::span<const Measure> measures) {
-  DxfWriter dxf(sheet.unit_known ? sheet.unit_metres : 1.0, {{CUT_LAYER, BLACK},
-                                                             {HATCH_LAYER, GREY},
-                                                             {CONTOUR_LAYER, BROWN},
-                                                             {LEVEL_LAYER, BLACK},
-                                                             {BEYOND_LAYER, GREY},
-                                                             {HIDDEN_LAYER, LIGHT_GREY},
-                                                             {MEASURES_LAYER, RED},
-                                                             {TEXT_LAYER, BLACK}});
-  for (const CutCurve& curve : sheet.cut_curves) {
-    std::vector<glm::dvec2> points = curve.points;
-    for (glm::dvec2& point : points) point -= sheet.origin;
-    dxf.polyline(CUT_LAYER, points, curve.closed);
-  }
+  DxfWriter dxf(sheet.unit_known ? sheet.unit_metres : 1.0,
+                {{CUT_LAYER, BLACK},
+                 {HATCH_LAYER, GREY},
+                 {CONTOUR_LAYER, BROWN},
+                 {LEVEL_LAYER, BLACK},
+                 {BEYOND_LAYER, GREY},
+                 {HIDDEN_LAYER, LIGHT_GREY, DASH_MM * sheet.mm_world()},
+                 {MEASURES_LAYER, RED},
+                 {TEXT_LAYER, BLACK}});
+  add_curves(sheet, sheet.cut_curves, CUT_LAYER, dxf);
+  add_curves(sheet, sheet.beyond, BEYOND_LAYER, dxf);
+  add_curves(sheet, sheet.overhead, HIDDEN_LAYER, dxf);
   for (const auto& [from, to] : sheet.hatch)
     dxf.line(HATCH_LAYER, {from - sheet.origin, 0.0}, {to - sheet.origin, 0.0});
   const double letter_height = LETTERS_MM * sheet.mm_world();

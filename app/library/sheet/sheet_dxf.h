@@ -10,7 +10,7 @@
 namespace splatray {
 
 /// The whole sheet in its own coordinates (Sheet::at), a unit of the drawing being one of the file, with the layers CUT and HATCH, of what is cut, CONTOURS, LEVELS,
-/// BEYOND and HIDDEN, which have nothing on them yet, MEASURES, and TEXT: title, scale and notes below the drawing.
+/// BEYOND, of what is seen, HIDDEN, dashed, of what is above, MEASURES, and TEXT: title, scale and notes below the drawing.
 [[nodiscard]] std::string sheet_dxf(const Sheet& sheet, const PageWords& words,
                                     std::span<const Measure> measures);
 

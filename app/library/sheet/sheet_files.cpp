@@ -122,11 +122,6 @@ void require_sheet_writer() { static_cast<void>(sheet_codec()); }
 void require_page(const Shot& shot) {
   const std::string extension = lower_extension(shot.request.output.path);
   if (extension == ".svg" || extension == ".pdf") static_cast<void>(page_of(shot));
-  if (extension == ".dxf" && shot.sheet()->cut_curves.empty() && shot.sheet()->contours.empty() &&
-      shot.request.output.measures.empty())
-    throw Error(ExitCode::usage,
-                "the sheet '" + shot.request.output.path.string() +
-                    "' cuts nothing, expected a section or plan:z=HEIGHT through a surface, or contours=");
 }
 
 Bytes encode_sheet(const Shot& shot, const DisplayImage& picture, const Metadata& metadata,

@@ -13,8 +13,7 @@ namespace splatray {
 /// not there.
 void require_sheet_writer();
 
-/// Lays the page of a sheet out before its picture is made. Throws Error (usage) where the paper that is asked for is too small for it,
-/// and of DXF where there is nothing to draw.
+/// Lays the page of a sheet out before its picture is made. Throws Error (usage) where the paper that is asked for is too small for it.
 void require_page(const Shot& shot);
 
 /// A sheet's file in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, and

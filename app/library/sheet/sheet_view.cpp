@@ -8,6 +8,7 @@
 #include "app/library/measure/measure_words.h"
 #include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/page_style.h"
+#include "app/library/sheet/seen_lines.h"
 #include "app/library/sheet/text_block.h"
 #include "engine/base/number_text.h"
 
@@ -109,13 +110,23 @@ void add_grid(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
   add_crosses(across, along, view);
 }
 
+void add_curve(const Sheet& sheet, const PixelWindow& window, const CutCurve& curve, double width_mm,
+               Drawing& view) {
+  DrawnPath path{{}, curve.closed, width_mm};
+  for (const glm::dvec2& point : curve.points)
+    path.points.push_back(view.raster.corner + in_window(sheet, window, point));
+  view.paths.push_back(std::move(path));
+}
+
+void add_seen(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
+  for (const CutCurve& curve : sheet.beyond) add_curve(sheet, window, curve, SEEN_LINE_MM, view);
+  for (const CutCurve& curve : sheet.overhead)
+    for (const CutCurve& dash : dashed(curve, sheet.mm_world()))
+      add_curve(sheet, window, dash, SEEN_LINE_MM, view);
+}
+
 void add_cut(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
-  for (const CutCurve& curve : sheet.cut_curves) {
-    DrawnPath path{{}, curve.closed, sheet.asked.weight_mm};
-    for (const glm::dvec2& point : curve.points)
-      path.points.push_back(view.raster.corner + in_window(sheet, window, point));
-    view.paths.push_back(std::move(path));
-  }
+  for (const CutCurve& curve : sheet.cut_curves) add_curve(sheet, window, curve, sheet.asked.weight_mm, view);
   for (const auto& [from, to] : sheet.hatch)
     view.paths.push_back({{view.raster.corner + in_window(sheet, window, from),
                            view.raster.corner + in_window(sheet, window, to)},
@@ -152,6 +163,7 @@ Drawing sheet_view(const Sheet& sheet, const PixelWindow& window) {
   view.raster.corner = glm::dvec2(before);
   view.raster.size = glm::dvec2(window.width, window.height) * sheet.pixel_mm();
   view.size = view.raster.corner + view.raster.size + glm::dvec2(BEHIND);
+  add_seen(sheet, window, view);
   add_cut(sheet, window, view);
   add_frame(view);
   add_grid(sheet, window, view);

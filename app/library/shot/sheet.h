@@ -31,8 +31,12 @@ struct Sheet {
   glm::dvec3 up{0.0, 0.0, 1.0};         ///< of the scene
   std::string crs;                      ///< Scene::crs
   std::vector<CutCurve> cut_curves;     ///< what is cut
+  double disc_world = 0.0;              ///< radius of the discs that are shown, on the median
+  /// Lines where what is seen behind the cut ends or turns, and where what is above a plan's cut does; along right and top. They are
+  /// known when the sheet is traced (seen_lines.h).
+  std::vector<CutCurve> beyond, overhead;
   std::vector<std::array<glm::dvec2, 2>> hatch;  ///< lines between the backs of these, along right and top
-  double thickest_world = 0.0;          ///< of a wall (HatchStyle::thickest)
+  double thickest_world = 0.0;                   ///< of a wall (HatchStyle::thickest)
   std::vector<Contour> contours;                 ///< along right and top
   std::vector<double> levels;  ///< heights of level marks, ascending, world units along `up`
   ColorLegend legend;          ///< of the colours shown; without a title, nothing is to be said of them

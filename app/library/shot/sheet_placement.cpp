@@ -11,6 +11,7 @@
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
+#include "engine/base/rank.h"
 #include "engine/image/point_sample.h"
 #include "engine/scene/scene_splat.h"
 
@@ -172,6 +173,17 @@ void set_pixels(const PointSample& shown, std::size_t splats, Sheet& sheet) {
   sheet.height = std::max(static_cast<std::uint32_t>(height), 1U);
 }
 
+/// Radius of the discs of the region, on the median of some of them.
+double disc_radius(const Scene& scene, const Region& region) {
+  constexpr std::size_t SOME = 1U << 16U;
+  const std::size_t every = splat_count(scene) / SOME + 1;
+  std::vector<double> radii;
+  for_each_splat(scene, [&](std::size_t i, const SceneSplat& splat) {
+    if (i % every == 0 && region.holds(splat.center_world())) radii.push_back(splat.radius_world());
+  });
+  return radii.empty() ? 0.0 : value_at(radii, 0.5);
+}
+
 CutPlane cut_plane(const Sheet& sheet) { return {sheet.right, sheet.top, sheet.toward, sheet.near}; }
 
 /// Cells of the raster that contours come from: half a millimetre of paper, larger where they would be too many.
@@ -239,6 +251,7 @@ Sheet make_sheet(const Scene& scene, const Request& request) {
   set_pixels(shown, splat_count(scene), sheet);
   if (sheet.cuts && sheet.asked.weight_mm > 0.0)
     sheet.cut_curves = plane_cut(scene, asked_region, cut_plane(sheet), CUT_TOLERANCE_MM * sheet.mm_world());
+  sheet.disc_world = disc_radius(scene, region);
   sheet.thickest_world = THICKEST_WALL_METRES / sheet.unit_metres;
   if (sheet.asked.hatch_mm > 0.0)
     sheet.hatch = cut_hatch(sheet.cut_curves, {sheet.asked.hatch_mm * sheet.mm_world(),

@@ -81,7 +81,9 @@ void write_picture(const Run& run, const Camera& camera, const SequenceFrame& fr
     run.listener.note("denoised by " + made.denoiser);
   }
   Stopwatch watch;
-  write_output(run.shot, made.image, metadata, frame.output);
+  Shot drawn = run.shot;
+  if (made.sheet) drawn.output = std::move(*made.sheet);
+  write_output(drawn, made.image, metadata, frame.output);
   record.made.push_back({frame, made.lights, made.stats, watch.lap_ms(), made.denoise_ms});
   record.last = std::move(made.image);
 }
