@@ -6,6 +6,7 @@
 #include "app/library/picture/denoise.h"
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/resume.h"
+#include "app/library/picture/sheet_light.h"
 #include "app/library/picture/xray.h"
 #include "app/library/sheet/draw_cut.h"
 #include "app/library/sheet/ink.h"
@@ -70,6 +71,45 @@ MadePicture traced_picture(const Shot& shot, SceneOnDevice& shown, const Camera&
   return made;
 }
 
+/// A sheet as traced_picture gives it, its light traced in cells of several pixels.
+MadePicture picture_lit_by_cells(const Shot& shot, const Sheet& sheet, std::uint32_t cell,
+                                 SceneOnDevice& shown, const Tracer::Progress& progress) {
+  constexpr std::uint32_t FINE_SAMPLES =
+      2;                             // with the cells' light no step between two pixels is more than half
+  constexpr double FINE_PART = 0.5;  // of the time
+  const auto part_of = [&progress](double begin, double size) {
+    return [&progress, begin, size](double done) { return !progress || progress(begin + size * done); };
+  };
+  const Sheet cells = sheet_of_cells(sheet, cell);
+  LitLook lit = lit_look(shot, shown, shot.view.camera);
+  Settings settings = shot.settings;
+  settings.look = LOOK_BASE;
+  settings.samples = FINE_SAMPLES;
+  settings.aov = true;
+  settings.estimate_error = settings.counters = false;
+  Image fine = shown.tracer().render(lit.look, shot.view, settings, part_of(0.0, FINE_PART));
+  const double base_ms = shown.tracer().stats().wall_ms;
+  settings = shot.settings;
+  settings.aov = false;
+  settings.estimate_error = true;
+  MadePicture made;
+  made.devices = device_text(shown.device());
+  made.lights = lit.look.lights.size();
+  made.notes = std::move(lit.notes);
+  made.image = shown.tracer().render(lit.look, {cells.camera(), cells.width, cells.height}, settings,
+                                     part_of(FINE_PART, 1.0 - FINE_PART));
+  made.stats = shown.tracer().stats();
+  made.stats.wall_ms += base_ms;
+  Stopwatch watch;
+  const CellSurfaces surfaces = surfaces_of_cells(fine, cell);
+  made.image.aov = surfaces.aov;
+  made.denoiser = remove_noise(made.image, surfaces.base);
+  light_up(sheet, cell, made.image.rgba, surfaces, fine);
+  made.image = std::move(fine);
+  made.denoise_ms = watch.lap_ms();
+  return made;
+}
+
 /// What the rays through the centres of a sheet's pixels hit that shows what is above the cut of the shot's.
 std::vector<AovPixel> overhead_aov(const Shot& shot, const Sheet& sheet, const Sheet& above,
                                    SceneOnDevice& shown) {
@@ -118,6 +158,8 @@ MadePicture make_picture(const Shot& shot, SceneOnDevice& shown, const Camera& c
   if (shot.request.view.xray) {
     made.image =
         xray_image(shown.scene(), shown.look().materials, *sheet, window, shot.settings.region, progress);
+  } else if (const std::uint32_t cell = light_cell(shot); cell > 1) {
+    made = picture_lit_by_cells(shot, *sheet, cell, shown, progress);
   } else {
     made = traced_picture(shot, shown, camera, progress, stopped);
   }
