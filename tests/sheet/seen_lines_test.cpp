@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "app/library/cut/line_bridge.h"
 #include "app/library/cut/pixel_borders.h"
 #include "app/library/cut/polyline_fit.h"
 #include "app/library/sheet/seen_lines.h"
@@ -178,6 +179,26 @@ TEST(PixelBorders, GoStraightThroughWhereOthersEnd) {
     lengths.push_back(glm::distance(line.points.front(), line.points.back()));
   std::sort(lengths.begin(), lengths.end());
   EXPECT_EQ(lengths, (std::vector<double>{20.0, 40.0}));
+}
+
+TEST(Bridges, JoinWhatGoesOnInALineAndNothingElse) {
+  const std::vector<CutCurve> curves = {{{{0.0, 0.0}, {10.0, 0.0}}, false},
+                                        {{{30.0, 0.2}, {13.0, 0.2}}, false},  // one line, turned
+                                        {{{13.0, 5.0}, {13.0, 1.0}}, false},
+                                        {{{40.0, 0.2}, {60.0, 0.2}}, false},     // across, too far
+                                        {{{11.0, -3.0}, {30.0, -3.0}}, false}};  // beside
+  const std::vector<CutCurve> joined = bridged(curves, {5.0, 1.0});
+  ASSERT_EQ(joined.size(), 4U);
+  EXPECT_EQ(joined[0].points, (std::vector<glm::dvec2>{{0.0, 0.0}, {10.0, 0.0}, {13.0, 0.2}, {30.0, 0.2}}));
+  EXPECT_FALSE(joined[0].closed);
+  // Three sides of a ring whose gaps lie in their lines.
+  const std::vector<CutCurve> ring = {
+      {{{1.0, 0.0}, {10.0, 0.0}, {10.0, 4.0}}, false},
+      {{{10.0, 6.0}, {10.0, 10.0}, {-5.0, 10.0}, {-5.0, 0.0}, {0.5, 0.0}}, false}};
+  const std::vector<CutCurve> around = bridged(ring, {3.0, 1.0});
+  ASSERT_EQ(around.size(), 1U);
+  EXPECT_TRUE(around[0].closed);
+  EXPECT_EQ(around[0].points.size(), 8U);
 }
 
 TEST(Dashes, AreAsLongAsTheyAreOnPaper) {

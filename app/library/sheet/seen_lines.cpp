@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/library/cut/cut_join.h"
+#include "app/library/cut/line_bridge.h"
 #include "app/library/cut/pixel_borders.h"
 #include "app/library/cut/polyline_fit.h"
 #include "app/library/sheet/draw_cut.h"
 #include "app/library/sheet/edges.h"
 #include "app/library/sheet/page_style.h"
+#include "engine/base/all_cores.h"
 
 namespace splatray {
 namespace {
@@ -18,7 +21,63 @@ constexpr double TOLERANCE_DISCS = 1.0;  ///< radii that rims wander by
 constexpr double TOLERANCE_PX = 1.25;
 constexpr double LEAST_MM = 2.0;     ///< of a line on paper
 constexpr double LEAST_DISCS = 8.0;  ///< and in radii: four discs side by side
+constexpr double LEAST_PART = 0.25;  ///< of that: of a piece of a line
 constexpr float BESIDE = 0.5F;       ///< of a pixel that lies beside what is cut
+
+/// Pixels that a disc's radius takes.
+std::uint32_t disc_pixels(const Sheet& sheet) {
+  return static_cast<std::uint32_t>(std::clamp(std::round(sheet.disc_world / sheet.pixel_world), 1.0, 8.0));
+}
+
+/// What is seen, near steps of depth that of the median depth of all within half a disc's radius: what is narrower is none of the surface's,
+/// as single discs that lean out of a narrow face.
+class StepFilter {
+ public:
+  StepFilter(const Sheet& sheet, std::span<const AovPixel> aov)
+      : width_(sheet.width), height_(sheet.height), reach_(disc_pixels(sheet) / 2), aov_(aov) {
+    const Edges edges(sheet, aov);
+    near_step_.resize(aov.size());
+    for (std::size_t y = 0; y < height_; ++y)
+      for (std::size_t x = 0; x < width_; ++x) {
+        const std::size_t at = y * width_ + x;
+        const bool right = x + 1 < width_ && edges.step(at, at + 1, 1.0F, 0.0F) > WEAK_STEP;
+        const bool below = y + 1 < height_ && edges.step(at, at + width_, 0.0F, -1.0F) > WEAK_STEP;
+        if (right || below) for_each_near(x, y, [this](std::size_t pixel) { near_step_[pixel] = true; });
+      }
+  }
+
+  [[nodiscard]] std::vector<AovPixel> run() const {
+    std::vector<AovPixel> filtered(aov_.begin(), aov_.end());
+    on_all_cores(height_, [&](std::size_t y) {
+      std::vector<std::size_t> near;
+      for (std::size_t x = 0; x < width_; ++x) {
+        if (!near_step_[y * width_ + x]) continue;
+        near.clear();
+        for_each_near(x, y, [&near](std::size_t pixel) { near.push_back(pixel); });
+        filtered[y * width_ + x] = aov_[median(near)];
+      }
+    });
+    return filtered;
+  }
+
+ private:
+  template <typename Visit>
+  void for_each_near(std::size_t x, std::size_t y, const Visit& visit) const {
+    for (std::size_t row = y - std::min(y, reach_); row <= std::min(y + reach_, height_ - 1); ++row)
+      for (std::size_t column = x - std::min(x, reach_); column <= std::min(x + reach_, width_ - 1); ++column)
+        visit(row * width_ + column);
+  }
+  [[nodiscard]] std::size_t median(std::vector<std::size_t>& near) const {
+    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+    std::nth_element(near.begin(), middle, near.end(),
+                     [this](std::size_t a, std::size_t b) { return aov_[a].z < aov_[b].z; });
+    return *middle;
+  }
+
+  std::size_t width_, height_, reach_;
+  std::span<const AovPixel> aov_;
+  std::vector<bool> near_step_;
+};
 
 /// Marks the borders between pixels that lines are made of.
 class BorderMarker {
@@ -28,8 +87,7 @@ class BorderMarker {
         edges_(sheet, aov),
         beside_(beside_cut(sheet, {0, 0, sheet.width, sheet.height})),
         // Normals are blended over a disc: a crease is seen from one side of it to the other.
-        reach_(static_cast<std::uint32_t>(
-            std::clamp(std::ceil(sheet.disc_world / sheet.pixel_world), 1.0, 12.0))) {}
+        reach_(disc_pixels(sheet)) {}
 
   PixelBorders run() const {
     PixelBorders borders(sheet_.width, sheet_.height);
@@ -88,12 +146,17 @@ std::vector<CutCurve> seen_lines(const Sheet& sheet, std::span<const AovPixel> a
   const double least = std::max(LEAST_MM * sheet.mm_world(), LEAST_DISCS * sheet.disc_world);
   const auto spur = static_cast<std::size_t>(std::ceil(4.0 * tolerance));
   std::vector<CutCurve> curves;
-  for (const BorderLine& line : BorderMarker(sheet, aov).run().lines(spur)) {
+  const std::vector<AovPixel> filtered = StepFilter(sheet, aov).run();
+  for (const BorderLine& line : BorderMarker(sheet, filtered).run().lines(spur)) {
     CutCurve curve{fitted_polyline(line.points, line.closed, tolerance), line.closed};
     for (glm::dvec2& point : curve.points)
       point = sheet.corner + point * sheet.pixel_world * glm::dvec2(1.0, -1.0);
-    if (curve.points.size() > 1 && length_of(curve) >= least) curves.push_back(std::move(curve));
+    if (curve.points.size() > 1 && length_of(curve) >= LEAST_PART * least) curves.push_back(std::move(curve));
   }
+  const double tolerance_world = tolerance * sheet.pixel_world;
+  curves = bridged(curves, {least, tolerance_world});
+  std::erase_if(curves, [least](const CutCurve& curve) { return length_of(curve) < least; });
+  for (CutCurve& curve : curves) curve = simplified(curve, 0.5 * tolerance_world);
   return curves;
 }
 

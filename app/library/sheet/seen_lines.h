@@ -8,7 +8,7 @@
 namespace splatray {
 
 /// The lines along which what is seen steps in depth, ends or turns, but beside what is cut (beside_cut), along right and top. They are
-/// joined, and straight to the radius of a disc, but at least to a pixel: rims of discs are not the surface's. Short ones are left out, as no more than a
+/// joined, also across gaps no longer than the shortest of them, and straight to the radius of a disc, but at least to a pixel: rims of discs are not the surface's. Short ones are left out, as no more than a
 /// few discs make them. `aov`: what the rays through all the sheet's pixels' centres hit, top row first.
 [[nodiscard]] std::vector<CutCurve> seen_lines(const Sheet& sheet, std::span<const AovPixel> aov);
 
