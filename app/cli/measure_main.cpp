@@ -73,6 +73,8 @@ void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
   add(MeasureKind::area, "area and perimeter of a polygon of places", "PLACE;PLACE;PLACE...");
   add(MeasureKind::sphere, "radius of the sphere through what is within REACH of a place", "PLACE;REACH");
   add(MeasureKind::cylinder, "radius of the cylinder through what is within REACH of a place", "PLACE;REACH");
+  add(MeasureKind::plane, "tilt of the plane through what is within REACH of a place, from level",
+      "PLACE;REACH");
   list.add_repeated(
       "--name",
       [&measures](const std::string& text) {

@@ -194,11 +194,10 @@ void Viewer::measure_at(const Inspected& picked, const SurfacePoint& point, Meas
           ? camera.ortho_height
           : 2.0 * std::tan(glm::radians(0.5 * camera.fov_y_deg)) * picked.distance_world;
   const double reach = AROUND_PX * height_world / std::max(picture_px().y, 1U);
-  const auto fit = radius_near(*scene_, shown_region(), picked.hit_world, reach, kind);
-  if (!fit)
+  Measure measure{kind, {point}};
+  if (!fit_near(*scene_, shown_region(), picked.hit_world, reach, measure))
     return void(panels_.notice = std::string("found no ") + measure_name(kind) + " around the cursor");
-  add_point(document_.measures, kind, point);
-  document_.measures.back().fit = fit;
+  document_.measures.push_back(std::move(measure));
 }
 
 /// What goes wrong becomes a sentence in the window.

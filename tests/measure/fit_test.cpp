@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <random>
 
-#include "app/library/measure/radius_fit.h"
+#include "app/library/measure/measure.h"
 
 namespace splatray {
 namespace {
@@ -80,6 +81,60 @@ TEST(RadiusFit, OfPlanesAndTooFewPointsIsNone) {
   plane.normals.resize(7);
   EXPECT_FALSE(fit_sphere(plane.points, plane.normals));
   EXPECT_FALSE(fit_sphere({}, {}));
+}
+
+/// Points of a floor of 2 x 0.5 that leans by `tilt_deg` across its short side, where its direction is least sure.
+std::vector<glm::dvec3> leaning_floor(double tilt_deg, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  std::normal_distribution<double> noise(0.0, NOISE);
+  const double turn = glm::radians(tilt_deg);
+  const glm::dvec3 across(0.0, std::cos(turn), std::sin(turn)), normal(0.0, -std::sin(turn), std::cos(turn));
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 300; ++i)
+    points.push_back(CENTER + glm::dvec3(share(random), 0.0, 0.0) + 0.25 * share(random) * across +
+                     noise(random) * normal);
+  return points;
+}
+
+double tilt_of(const Measure& measure, double& within) {
+  const MeasureValue value = values_of(measure, {0.0, 0.0, 1.0}).front();
+  within = value.within;
+  return value.value;
+}
+
+TEST(PlaneFit, OfAFloorHoldsItsTiltInTheInterval) {
+  constexpr int FITS = 400;
+  int inside = 0;
+  for (int i = 0; i < FITS; ++i) {
+    Measure measure{MeasureKind::plane, {{CENTER}}};
+    measure.plane = fit_plane(leaning_floor(2.0, static_cast<std::uint64_t>(i)));
+    ASSERT_TRUE(measure.plane);
+    EXPECT_NEAR(measure.plane->residual, NOISE, 0.0004);
+    double within = 0.0;
+    inside += std::abs(tilt_of(measure, within) - 2.0) < within ? 1 : 0;
+    EXPECT_LT(within, 0.2);
+  }
+  std::printf("%d of %d inside\n", inside, FITS);
+  EXPECT_GE(inside, FITS * 92 / 100);
+  EXPECT_LE(inside, FITS * 98 / 100) << "intervals are no wider than they must";
+}
+
+TEST(PlaneFit, LeavesOutWhatStandsOnIt) {
+  std::vector<glm::dvec3> points = leaning_floor(0.0, 1);
+  for (int i = 0; i < 15; ++i) points.push_back(CENTER + glm::dvec3(0.9, 0.2, 0.05 + 0.01 * i));
+  const auto fit = fit_plane(points);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->residual, 2.0 * NOISE);
+  EXPECT_GT(std::abs(fit->normal.z), 0.99999);
+}
+
+TEST(PlaneFit, OfALineAndTooFewPointsIsNone) {
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 50; ++i) points.push_back(CENTER + 0.1 * i * glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_FALSE(fit_plane(points));
+  EXPECT_FALSE(fit_plane(std::vector(20, CENTER)));
+  EXPECT_FALSE(fit_plane({}));
 }
 
 }  // namespace

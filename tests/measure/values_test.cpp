@@ -174,9 +174,11 @@ std::vector<Measure> all_kinds() {
       measure_of(MeasureKind::horizontal, {{0, 0, 0}, {1, 0, 4}}),
       measure_of(MeasureKind::angle, {{0, 0, 0}, {1, 0, 4}, {2, 2, 2}}),
       measure_of(MeasureKind::area, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0.0, 0.0, 0.001}),
+      measure_of(MeasureKind::plane, {{1, 2, 3}}),
       measure_of(MeasureKind::cylinder, {{1, 2, 3}})};
   measures.front().name = "Stra\u00DFe";
   measures.front().points.front().sideways = {0.01, 0.0, 0.02};
+  measures[6].plane = PlaneFit{FAR_AWAY, {0.0, 0.6, 0.8}, 0.002, 0.0003, 77};
   measures.back().fit = RadiusFit{0.25, 0.001, 0.002, FAR_AWAY, {0.0, 0.6, 0.8}, 77};
   return measures;
 }

@@ -63,6 +63,16 @@ std::vector<MeasureValue> radius_values(const Measure& measure) {
           {"residual", measure.fit->residual, 0.0, MeasureUnit::length}};
 }
 
+std::vector<MeasureValue> plane_values(const Measure& measure, const glm::dvec3& up) {
+  if (!measure.plane) return {};
+  const glm::dvec3 level = glm::normalize(up), normal = measure.plane->normal;
+  const double tilt = std::atan2(glm::length(glm::cross(normal, level)), std::abs(glm::dot(normal, level)));
+  constexpr double OF_RADIANS = 180.0 / std::numbers::pi;
+  return {{"tilt", OF_RADIANS * tilt, OF_RADIANS * OF_95_PERCENT * measure.plane->turn_error,
+           MeasureUnit::degrees},
+          {"residual", measure.plane->residual, 0.0, MeasureUnit::length}};
+}
+
 std::vector<MeasureValue> own_values(const Measure& measure, const glm::dvec3& up) {
   if (measure.points.size() < points_needed(measure.kind)) return {};
   const auto value = [&measure](const char* name, const std::function<double(const Places&)>& of,
@@ -98,6 +108,8 @@ std::vector<MeasureValue> own_values(const Measure& measure, const glm::dvec3& u
     case MeasureKind::sphere:
     case MeasureKind::cylinder:
       return radius_values(measure);
+    case MeasureKind::plane:
+      return plane_values(measure, up);
   }
   return {};
 }
@@ -105,8 +117,8 @@ std::vector<MeasureValue> own_values(const Measure& measure, const glm::dvec3& u
 }  // namespace
 
 const char* measure_name(MeasureKind kind) {
-  static constexpr std::array NAMES = {"point", "distance", "horizontal", "vertical",
-                                       "angle", "area",     "sphere",     "cylinder"};
+  static constexpr std::array NAMES = {"point", "distance", "horizontal", "vertical", "angle",
+                                       "area",  "sphere",   "cylinder",   "plane"};
   return NAMES.at(static_cast<std::size_t>(kind));
 }
 
@@ -117,13 +129,15 @@ std::optional<MeasureKind> measure_kind(const std::string& name) {
 }
 
 std::size_t points_needed(MeasureKind kind) {
-  static constexpr std::array<std::size_t, MEASURE_KINDS> NEEDED = {1, 2, 2, 2, 3, 3, 1, 1};
+  static constexpr std::array<std::size_t, MEASURE_KINDS> NEEDED = {1, 2, 2, 2, 3, 3, 1, 1, 1};
   return NEEDED.at(static_cast<std::size_t>(kind));
 }
 
 bool is_open_ended(MeasureKind kind) { return kind == MeasureKind::distance || kind == MeasureKind::area; }
 
-bool is_fitted(MeasureKind kind) { return kind == MeasureKind::sphere || kind == MeasureKind::cylinder; }
+bool is_fitted(MeasureKind kind) {
+  return kind == MeasureKind::sphere || kind == MeasureKind::cylinder || kind == MeasureKind::plane;
+}
 
 void add_point(std::vector<Measure>& measures, MeasureKind kind, const SurfacePoint& point) {
   const bool goes_on = !measures.empty() && measures.back().kind == kind &&

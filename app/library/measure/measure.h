@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/library/measure/plane_fit.h"
 #include "app/library/measure/radius_fit.h"
 
 namespace splatray {
@@ -30,9 +31,10 @@ enum class MeasureKind {
   angle,       ///< at the second of three
   area,        ///< of the polygon of three and more
   sphere,      ///< its radius
-  cylinder     ///< its radius
+  cylinder,    ///< its radius
+  plane        ///< its tilt: the angle to a level one
 };
-inline constexpr int MEASURE_KINDS = 8;
+inline constexpr int MEASURE_KINDS = 9;
 [[nodiscard]] const char* measure_name(MeasureKind kind);
 /// What a vertical measure was called before.
 inline constexpr const char* OLD_VERTICAL = "height";
@@ -41,15 +43,16 @@ inline constexpr const char* OLD_VERTICAL = "height";
 /// Points that complete a measure; more may follow where `is_open_ended`.
 [[nodiscard]] std::size_t points_needed(MeasureKind kind);
 [[nodiscard]] bool is_open_ended(MeasureKind kind);
-/// Whether it is of what lies around its point: spheres and cylinders.
+/// Whether it is of what lies around its point: spheres, cylinders and planes.
 [[nodiscard]] bool is_fitted(MeasureKind kind);
 
 /// A measure, maybe of too few points yet.
 struct Measure {
   MeasureKind kind = MeasureKind::distance;
   std::vector<SurfacePoint> points;
-  std::optional<RadiusFit> fit{};  ///< of spheres and cylinders
-  std::string name{};              ///< given by who measures, UTF-8; may be empty
+  std::optional<RadiusFit> fit{};   ///< of spheres and cylinders
+  std::optional<PlaneFit> plane{};  ///< of planes
+  std::string name{};               ///< given by who measures, UTF-8; may be empty
 
   bool operator==(const Measure&) const = default;
 };

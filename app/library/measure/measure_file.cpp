@@ -47,6 +47,13 @@ Json properties_of(const Measure& measure, std::size_t id, const MeasureFrame& f
   }
   properties["errors"] = errors;
   properties["errors_sideways"] = sideways;
+  if (measure.plane) {
+    properties["normal"] = json_vector(measure.plane->normal);
+    properties["turn_error"] = measure.plane->turn_error;
+    properties["fitted_residual"] = measure.plane->residual;
+    properties["middle"] = json_vector(measure.plane->middle);
+    properties["fitted_points"] = measure.plane->points;
+  }
   if (!measure.fit) return properties;
   properties["fitted_radius"] = measure.fit->radius;
   properties["radius_error"] = measure.fit->radius_error;
@@ -129,6 +136,10 @@ Measure measure_of(const Json& feature) {
     measure.points.push_back({vector_of(geometry.places[i]),
                               errors.is_null() ? glm::dvec3(0.0) : vector_of(errors.at(i)),
                               sideways.is_null() ? glm::dvec3(0.0) : vector_of(sideways.at(i))});
+  if (measure.kind == MeasureKind::plane && !property(feature, "normal").is_null())
+    measure.plane = PlaneFit{vector_of(property(feature, "middle")), vector_of(property(feature, "normal")),
+                             property(feature, "fitted_residual"), property(feature, "turn_error"),
+                             property(feature, "fitted_points")};
   const Json center = property(feature, "center");
   if (center.is_null()) return measure;
   const auto number = [&feature](const char* first, const char* old) {

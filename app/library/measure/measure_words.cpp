@@ -131,7 +131,7 @@ std::string short_text(const Measure& measure, const MeasureFrame& frame) {
       text += (text.empty() ? "" : ", ") + value_words(value, metres).value;
     return text + " " + length_symbol(metres);
   }
-  const std::string sign = measure.kind == MeasureKind::area ? "A " : (is_fitted(measure.kind) ? "R " : "");
+  const std::string sign = measure.kind == MeasureKind::area ? "A " : (measure.fit ? "R " : "");
   return sign + value_text(values.front(), metres);
 }
 

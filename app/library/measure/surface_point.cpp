@@ -94,6 +94,22 @@ double spacing_of(const std::vector<Near>& near) {
   return std::sqrt(std::numbers::pi * farthest / static_cast<double>(std::max<std::size_t>(near.size(), 1)));
 }
 
+/// Centres and normals of the splats in the region within `reach` of a place.
+struct NearSurface {
+  std::vector<glm::dvec3> points, normals;
+};
+
+NearSurface surface_near(const Scene& scene, const Region& region, const glm::dvec3& place, double reach) {
+  NearSurface surface;
+  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
+    const glm::dvec3 center = splat.center_world();
+    if (glm::distance(center, place) > reach || !region.holds(center)) return;
+    surface.points.push_back(center);
+    surface.normals.push_back(splat.normal());
+  });
+  return surface;
+}
+
 }  // namespace
 
 SurfacePoint point_on_ray(const Scene& scene, const SurfaceSpot& spot, const glm::dvec3& direction) {
@@ -127,17 +143,28 @@ std::optional<SnappedPoint> nearest_point(const Scene& scene, const Region& regi
 
 std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region, const glm::dvec3& place,
                                      double reach, MeasureKind kind) {
-  std::vector<glm::dvec3> points, normals;
-  for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) {
-    const glm::dvec3 center = splat.center_world();
-    if (glm::distance(center, place) > reach || !region.holds(center)) return;
-    points.push_back(center);
-    normals.push_back(splat.normal());
-  });
+  const auto [points, normals] = surface_near(scene, region, place, reach);
   auto fit = kind == MeasureKind::sphere ? fit_sphere(points, normals) : fit_cylinder(points, normals);
   const double noise = most_noise_world(scene.stations);
   if (fit && fit->residual > 0.0) fit->radius_error *= std::max(1.0, noise / fit->residual);
   return fit;
+}
+
+std::optional<PlaneFit> plane_near(const Scene& scene, const Region& region, const glm::dvec3& place,
+                                   double reach) {
+  std::optional<PlaneFit> fit = fit_plane(surface_near(scene, region, place, reach).points);
+  const double noise = most_noise_world(scene.stations);
+  if (fit && fit->residual > 0.0) fit->turn_error *= std::max(1.0, noise / fit->residual);
+  return fit;
+}
+
+bool fit_near(const Scene& scene, const Region& region, const glm::dvec3& place, double reach,
+              Measure& measure) {
+  if (measure.kind == MeasureKind::plane)
+    measure.plane = plane_near(scene, region, place, reach);
+  else
+    measure.fit = radius_near(scene, region, place, reach, measure.kind);
+  return measure.plane || measure.fit;
 }
 
 }  // namespace splatray

@@ -37,4 +37,12 @@ struct SnappedPoint {
 [[nodiscard]] std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region,
                                                    const glm::dvec3& place, double reach, MeasureKind kind);
 
+/// Plane of the splats in the region within `reach` of a place, with errors as radius_near has them.
+[[nodiscard]] std::optional<PlaneFit> plane_near(const Scene& scene, const Region& region,
+                                                 const glm::dvec3& place, double reach);
+
+/// Gives a measure that is_fitted the sphere, cylinder or plane around a place. Returns whether there is one.
+[[nodiscard]] bool fit_near(const Scene& scene, const Region& region, const glm::dvec3& place, double reach,
+                            Measure& measure);
+
 }  // namespace splatray

@@ -47,19 +47,19 @@ SurfacePoint snapped(const Scene& scene, const Region& region, const GivenMeasur
 
 Measure take_measure(const Scene& scene, const Region& region, const GivenMeasure& given,
                      SceneOnDevice* shown) {
-  Measure measure{given.kind, {}, {}, given.name};
+  Measure measure{given.kind, {}, {}, {}, given.name};
   for (const GivenPlace& place : given.places) {
     assert(!place.direction || shown != nullptr);
     measure.points.push_back(place.direction ? first_hit(*shown, scene, region, place)
                                              : snapped(scene, region, given, place.place));
   }
   if (!is_fitted(given.kind)) return measure;
-  measure.fit = radius_near(scene, region, measure.points[0].place, given.reach, given.kind);
-  if (!measure.fit)
-    throw Error(ExitCode::failed, std::string("cannot fit a ") + measure_name(given.kind) + " within " +
-                                      number_text(given.reach) + " of " +
-                                      number_text(measure.points[0].place) +
-                                      ": what is there lies in a plane, or is too little");
+  if (!fit_near(scene, region, measure.points[0].place, given.reach, measure))
+    throw Error(ExitCode::failed,
+                std::string("cannot fit a ") + measure_name(given.kind) + " within " +
+                    number_text(given.reach) + " of " + number_text(measure.points[0].place) +
+                    (given.kind == MeasureKind::plane ? ": what is there lies in a line, or is too little"
+                                                      : ": what is there lies in a plane, or is too little"));
   return measure;
 }
 
