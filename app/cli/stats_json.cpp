@@ -60,6 +60,16 @@ Json choices_json(const Shot& shot) {
   return json;
 }
 
+/// The views of a scan that were tried, each with the figure that decided.
+Json views_json(const Shot& shot) {
+  Json json = Json::array();
+  for (const CheckedView& view : shot.views)
+    json.push_back({{"view", viewpoint_name(view.viewpoint)},
+                    {"fault", view_fault_name(view.fault)},
+                    {"share", view.share}});
+  return json;
+}
+
 /// The pictures together, as if they were one.
 PictureRecord sum_of(const std::vector<PictureRecord>& pictures) {
   PictureRecord sum;
@@ -104,6 +114,7 @@ void write_stats(const Shot& shot, const LoadedScene& loaded, const PoolCounts& 
         {"error", sum.stats.error},
         {"seed", settings.seed}}},
       {"choices", choices_json(shot)},
+      {"views", views_json(shot)},
       {"times_ms",
        {{"device", times.device_ms},
         {"load", loaded.load_ms},

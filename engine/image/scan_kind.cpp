@@ -161,17 +161,20 @@ bool is_layer_that_looks_down(const PointSample& sample) {
 
 }  // namespace
 
-bool is_model_of_room(const Scene& scene) {
+bool is_built(const PointSample& sample, const glm::dmat3& axes) {
   constexpr double WALL_DEG = 10.0, WALL_SHARE = 0.5;
-  if (!scene.stations.empty() || scene.camera || splat_count(scene) == 0) return false;
-  const PointSample sample = sample_points(scene);
-  const glm::dmat3 axes = upright_axes(scene.up);
   const auto walls = std::count_if(sample.normal.begin(), sample.normal.end(), [&](const glm::dvec3& normal) {
     const double up = std::abs(glm::dot(normal, axes[1]));
     return up > std::cos(WALL_DEG * RADIAN) || up < std::sin(WALL_DEG * RADIAN);
   });
-  return share_of(static_cast<std::size_t>(walls), sample.size()) > WALL_SHARE &&
-         is_room(scene, sample, axes);
+  return share_of(static_cast<std::size_t>(walls), sample.size()) > WALL_SHARE;
+}
+
+bool is_model_of_room(const Scene& scene) {
+  if (!scene.stations.empty() || scene.camera || splat_count(scene) == 0) return false;
+  const PointSample sample = sample_points(scene);
+  const glm::dmat3 axes = upright_axes(scene.up);
+  return is_built(sample, axes) && is_room(scene, sample, axes);
 }
 
 const char* scan_kind_name(SceneKind kind) {

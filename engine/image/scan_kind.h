@@ -33,6 +33,10 @@ enum class SceneKind {
 /// whose faces are turned inside out a fifth is.
 [[nodiscard]] bool is_model_of_room(const Scene& scene);
 
+/// Whether more than half of the normals are within 10 degrees of upright or level, as those of walls, floors and ceilings are; of a
+/// round thing a fifth is. `axes` as upright_axes has them.
+[[nodiscard]] bool is_built(const PointSample& sample, const glm::dmat3& axes);
+
 /// Whether a scan without a known place is in the frame of a camera, x to the right, y down and z ahead: it was seen
 /// from the origin (as seeing_place has it) along z; or it has one layer along z, near the origin, whose normals look
 /// to -z on the mean, by more than 0.3: no scan from above or around does.

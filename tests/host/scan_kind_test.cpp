@@ -8,6 +8,7 @@
 
 #include "engine/image/upright.h"
 #include "engine/image/view.h"
+#include "engine/image/view_check.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {
@@ -59,6 +60,72 @@ TEST(SceneKind, ABoxThatFacesOutIsNoRoom) {
   OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
   for (auto& [position, normal] : points) normal = -normal;
   EXPECT_EQ(kind_of_scan(scan_scene(points)), SceneKind::object);
+}
+
+/// Half a room: the floor and two walls, which face in, as seen from the default camera's side they turn their backs.
+OrientedPoints half_room() {
+  OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
+  std::erase_if(points, [](const auto& point) {
+    return point.second.x > 0.5 || point.second.y < -0.5 || point.second.z < -0.5;
+  });
+  return points;
+}
+
+TEST(CheckedViews, WallsThatTurnTheirBacksOpen) {
+  const Scene half = scan_scene(half_room());
+  ASSERT_EQ(kind_of_scan(half), SceneKind::object);
+  const std::vector<CheckedView> views = check_views(half, SceneKind::object, choose_viewpoint(half));
+  ASSERT_EQ(views.size(), 2U);
+  EXPECT_EQ(views[0].viewpoint, Viewpoint::front);
+  EXPECT_EQ(views[0].fault, ViewFault::closed);
+  EXPECT_GT(views[0].share, 0.5);
+  EXPECT_EQ(views[1].viewpoint, Viewpoint::dollhouse);
+  EXPECT_EQ(views[1].fault, ViewFault::none);
+}
+
+TEST(CheckedViews, WhatShowsItsFrontStays) {
+  OrientedPoints box = box_points({4.0, 5.0, 3.0}, true);
+  for (auto& [position, normal] : box) normal = -normal;
+  EXPECT_EQ(check_views(scan_scene(box), SceneKind::object, Viewpoint::front).size(), 1U);
+  OrientedPoints turned = cone({0, 0, 1});
+  for (auto& [position, normal] : turned) normal = -normal;
+  EXPECT_EQ(check_views(scan_scene(turned), SceneKind::object, Viewpoint::front).size(), 1U)
+      << "round things are no walls";
+  EXPECT_EQ(check_views(scan_scene(ground(false)), SceneKind::site, Viewpoint::oblique).back().viewpoint,
+            Viewpoint::oblique);
+}
+
+TEST(CheckedViews, ADollsHouseThatStaysClosedIsFound) {
+  OrientedPoints box = box_points({4.0, 5.0, 3.0}, true);
+  const Scene room = scan_scene(box);
+  const CheckedView open = check_view(room, sample_points(room), Viewpoint::dollhouse);
+  EXPECT_EQ(open.fault, ViewFault::none);
+  EXPECT_GT(open.share, 0.9);
+  for (auto& [position, normal] : box) normal = -normal;
+  const Scene turned = scan_scene(box);
+  const CheckedView closed = check_view(turned, sample_points(turned), Viewpoint::dollhouse);
+  EXPECT_EQ(closed.fault, ViewFault::closed);
+  EXPECT_LT(closed.share, 0.1);
+}
+
+TEST(CheckedViews, FiguresAreThoseOfTheForemostPoints) {
+  const Scene room = scan_scene(box_points({4.0, 5.0, 3.0}, true));
+  const PointSample sample = sample_points(room);
+  const Camera within{.eye = {0, 0, 0}, .target = {0, 1, 0}, .up = {0, 0, 1}, .fov_y_deg = 50.0};
+  const ViewFigures figures = view_figures(sample, within, false);
+  EXPECT_LT(figures.background, 0.1);
+  EXPECT_LT(figures.behind, 0.01);
+  EXPECT_GT(figures.plane, 0.7) << "the wall before it fills the picture";
+  EXPECT_EQ(figures.near, 0.0);
+  const Camera before{.eye = {0, -30, 0}, .target = {0, 0, 0}, .up = {0, 0, 1}, .fov_y_deg = 5.0};
+  EXPECT_GT(view_figures(sample, before, false).behind, 0.9) << "the room's outside";
+  EXPECT_LT(view_figures(sample, before, true).behind, 0.01) << "is left out";
+  const Camera at_wall{.eye = {0, 2.45, 0}, .target = {0, 0, 0}, .up = {0, 0, 1}, .fov_y_deg = 50.0};
+  EXPECT_EQ(view_figures(
+                sample, {.eye = {0, 2.4, 0}, .target = {0, 9, 0}, .up = {0, 0, 1}, .fov_y_deg = 120.0}, false)
+                .near,
+            1.0);
+  EXPECT_EQ(view_figures(sample, at_wall, false).near, 0.0);
 }
 
 TEST(SceneKind, WhatIsSeenFromOnePlaceIsASensorsView) {

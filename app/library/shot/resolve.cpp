@@ -36,6 +36,19 @@ void resolve_view(const SceneFacts& facts, Shot& shot) {
   view.viewpoint =
       from_outside && facts.viewpoint == Viewpoint::inside ? Viewpoint::dollhouse : facts.viewpoint;
   note(shot, "view", viewpoint_name(view.viewpoint));
+  if (view.viewpoint == facts.viewpoint) shot.views = facts.views;
+}
+
+/// Says of a scan's doll's house that it stays closed: whoever asked for it looks for the walls' insides.
+void note_closed(const Scene& scene, const SceneFacts& facts, Shot& shot) {
+  const Request::View& view = shot.request.view;
+  if (facts.kind == SceneKind::none || view.eye || view.viewpoint != Viewpoint::dollhouse) return;
+  const CheckedView checked = check_view(scene, main_parts(sample_points(scene)), Viewpoint::dollhouse);
+  if (checked.fault != ViewFault::closed) return;
+  shot.notes.push_back(
+      "the doll's house stays closed: " + number_text(std::round(100.0 * checked.share)) +
+      " % of what is in front faces away from the camera, of a room most does; " +
+      "the sides of its surfaces are unsure, --sensor with the scanner's place decides them");
 }
 
 /// How much of a scan was read.
@@ -303,6 +316,7 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   shot.exposes = !request.look.exposure_ev && exposes_by_default(scene, request, shot.settings.look);
   shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;
   shot.notes = ignored_options(asked, shot.settings.look);
+  note_closed(whole, facts, shot);
   if (facts.kind != SceneKind::none) shot.of = scan_kind_name(facts.kind);
   return shot;
 }

@@ -50,7 +50,8 @@ bool has_intensity(const Scene& scene) {
 SceneFacts facts_of(const Scene& scene) {
   SceneFacts facts;
   facts.kind = kind_of_scan(scene);
-  facts.viewpoint = choose_viewpoint(scene);
+  facts.views = check_views(scene, facts.kind, choose_viewpoint(scene));
+  facts.viewpoint = facts.views.back().viewpoint;
   if (facts.kind == SceneKind::none) return facts;
   facts.has_colors = has_colors(scene);
   facts.has_intensity = has_intensity(scene);

@@ -1,10 +1,12 @@
 /// What a scene is, as far as that decides how it is shown.
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "app/library/attributes.h"
 #include "engine/image/scan_kind.h"
 #include "engine/image/view.h"
+#include "engine/image/view_check.h"
 #include "engine/scene/scene.h"
 
 namespace splatray {
@@ -12,6 +14,7 @@ namespace splatray {
 struct SceneFacts {
   SceneKind kind = SceneKind::none;
   Viewpoint viewpoint = Viewpoint::front;  ///< that suits it
+  std::vector<CheckedView> views{};        ///< that were tried (check_views), the last of which is shown
   bool has_colors = false;                 ///< of its own that are not all alike
   bool has_intensity = false;              ///< that varies
   std::string color_by{};  ///< the colours that it is shown in were chosen for it; empty: they are its own

@@ -8,6 +8,7 @@
 #include "app/library/shot/sequence.h"
 #include "app/library/shot/sheet.h"
 #include "engine/image/view.h"
+#include "engine/image/view_check.h"
 
 namespace splatray {
 
@@ -23,6 +24,8 @@ struct Shot {
   Request request;                   ///< as asked for, with the choices as if they had been asked for
   std::string of{};                  ///< what the scan is of, "a room"; empty: no scan
   std::vector<FieldText> choices{};  ///< what was chosen, as the fields that ask for the same
+  /// Tried of a scan without a view of its own; the last is shown.
+  std::vector<CheckedView> views{};
   std::string lod_error{};           ///< lod_error.h's sentence; empty where it was not asked for
   std::vector<std::string> notes{};  ///< sentences about options that have no effect
   View view{};                       ///< the camera of a still, and which pixels are made
