@@ -28,6 +28,7 @@
 #include "preprocess/ground.h"
 #include "preprocess/lattice.h"
 #include "preprocess/pack_clouds.h"
+#include "preprocess/scan/evidence.h"
 #include "preprocess/scan/grid/pinhole.h"
 #include "preprocess/scan/scan_surface.h"
 #include "preprocess/surface/cloud.h"
@@ -105,6 +106,14 @@ void number_objects(const std::vector<Cloud>& clouds, std::vector<Material>& mat
     materials[order[i]].mask_bit = static_cast<std::uint32_t>(i % MASK_BITS);
 }
 
+/// The points of a scan whose radii are not given, but for discs on no surface, which have theirs already: those that scan/evidence.h
+/// asks of.
+std::vector<std::uint32_t> find_computed(const Cloud& cloud) {
+  return numbers_where(cloud.size(), [&](std::size_t i) {
+    return cloud.measured && (cloud.radius.empty() || cloud.radius[i] == 0.0F || !cloud.on_surface(i));
+  });
+}
+
 /// Estimates unknown normals; scans are freed of strays and noise, too.
 void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress& progress,
                        BuildStats& stats) {
@@ -171,8 +180,10 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const Progre
   const double isolated_world = (diagonal > 0.0 ? ISOLATED_SHARE * diagonal : 1.0) * scene.build.radius_scale;
   for (Cloud& cloud : clouds) {
     require_stage_memory("radii", cloud.size(), RADII_BYTES);
+    const std::vector<std::uint32_t> computed = find_computed(cloud);
     find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale,
                scene.build.normal_fields && !cloud.lattice, {"radii", progress});
+    stats.dots += make_dots(cloud, computed, {"radii", progress});
     const auto isolated =
         numbers_where(cloud.size(), [&](std::size_t i) { return !(cloud.radius[i] > 0.0F); });
     for (const std::uint32_t i : isolated)

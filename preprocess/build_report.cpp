@@ -45,6 +45,8 @@ void report_scans(const BuildStats& stats, std::ostringstream& text) {
     text << "  found among points: " << stats.creased << " at creases (" << stats.crease_copies
          << " on several planes), " << stats.bordered << " at borders\n";
   }
+  if (stats.dots > 0)
+    text << "  " << stats.dots << " large discs that nothing around them shows are small dots\n";
   for (std::size_t rung = 0; rung < SIDE_RUNGS; ++rung) {
     if (stats.sides_by[rung] == 0) continue;
     text << "  sides of normals decided by: " << name_of(static_cast<SideRung>(rung));
@@ -74,6 +76,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"radii_given", stats.radii_given},
                                        {"radii_repaired", stats.radii_repaired},
                                        {"radii_isolated", stats.radii_isolated},
+                                       {"dots", stats.dots},
                                        {"splats", stats.splats},
                                        {"clipped", stats.clipped},
                                        {"ellipses", stats.ellipses},

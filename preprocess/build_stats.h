@@ -29,6 +29,7 @@ struct BuildStats {
   std::uint64_t radii_repaired = 0;  ///< given radius zero, negative or not finite: computed instead
   /// No neighbour to take a radius from: 1/100 of the scene's diagonal instead.
   std::uint64_t radii_isolated = 0;
+  std::uint64_t dots = 0;  ///< of scans: large discs that nothing around them shows to be surface (make_dots)
   std::uint64_t splats = 0;
   std::uint64_t clipped = 0;        ///< splats that end at a border or a crease
   std::uint64_t ellipses = 0;       ///< splats that are longer than wide

@@ -1,6 +1,7 @@
 #include "preprocess/scan/occupancy.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -35,6 +36,23 @@ Occupancy::Occupancy(const Cloud& cloud, double edge) : low_(INFINITY) {
                                static_cast<std::size_t>(cell.x);
     bits_[number / 64] |= std::uint64_t{1} << number % 64;
   }
+}
+
+std::vector<glm::dvec3> Occupancy::free_places(std::size_t most) const {
+  const auto cells = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
+                     static_cast<std::size_t>(size_.z);
+  std::size_t full = 0;
+  for (const std::uint64_t bits : bits_) full += static_cast<std::size_t>(std::popcount(bits));
+  const std::size_t stride = (cells - full) / std::max<std::size_t>(most, 1) + 1;
+  std::vector<glm::dvec3> places;
+  std::size_t free = 0;
+  for (int z = 0; z < size_.z; ++z)
+    for (int y = 0; y < size_.y; ++y)
+      for (int x = 0; x < size_.x; ++x) {
+        const glm::ivec3 cell(x, y, z);
+        if (!filled(cell) && free++ % stride == 0) places.push_back(low_ + edge_ * (glm::dvec3(cell) + 0.5));
+      }
+  return places;
 }
 
 /// Walks from cell to cell (Amanatides, Woo 1987).

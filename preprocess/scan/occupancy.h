@@ -17,6 +17,8 @@ class Occupancy {
   Occupancy(const Cloud& cloud, double edge);
 
   [[nodiscard]] double edge() const { return edge_; }
+  /// The middles of at most `most` cells without points, an even choice of all in the cloud's box.
+  [[nodiscard]] std::vector<glm::dvec3> free_places(std::size_t most) const;
   /// Distance along a unit direction from `origin` to the first cell with points; nothing where the ray leaves the cloud's box
   /// before.
   [[nodiscard]] std::optional<double> free_path(const glm::dvec3& origin, const glm::dvec3& dir) const;

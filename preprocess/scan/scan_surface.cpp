@@ -250,7 +250,7 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   how.noise = measure_noise(cloud, survey);
   if (!cloud.kind.empty()) {
     const bool terrain = sides.rung == SideRung::up || sides.rung == SideRung::track;
-    make_scatter_discs(cloud, survey, up, !terrain && is_room(cloud, survey) ? CLUTTER : LEAVES);
+    make_scatter_discs(cloud, survey, up, !terrain && is_room(cloud, survey, up) ? CLUTTER : LEAVES);
   }
   stats.noise = std::max(stats.noise, how.noise);
   note_quality(cloud, steps, station_noise_world(cloud, survey));

@@ -141,27 +141,45 @@ struct Votes {
   }
 };
 
+/// Rays from a point's surface, to either side of it.
+class PointRays {
+ public:
+  PointRays(const Cloud& cloud, std::size_t point)
+      : place_(cloud.coord[point]), normal_(cloud.normal[point]) {
+    const glm::dvec3 side = std::abs(normal_.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    u_ = glm::normalize(glm::cross(normal_, side)), v_ = glm::cross(normal_, u_);
+  }
+
+  /// Occupancy::free_path of the `number`-th direction on the side of the normal (`sign` 1) or behind (-1).
+  [[nodiscard]] std::optional<double> cast(const Occupancy& space, std::uint32_t number, double sign) const {
+    const glm::dvec3 local = direction(number);
+    return space.free_path(place_ + sign * RAY_START * space.edge() * normal_,
+                           local.x * u_ + local.y * v_ + sign * local.z * normal_);
+  }
+
+ private:
+  glm::dvec3 place_, normal_, u_, v_;
+};
+
 /// For each point the room in front of its normal against that behind: 1, -1, or 0 where both are the same or it has no vote.
-std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, const Stage& stage) {
+std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, const glm::dvec3& up,
+                                    const Stage& stage) {
   const Occupancy space(cloud, cell_edge(survey));
-  const double beyond = is_room(cloud, survey) ? 0.0 : 4.0;  // more than any way through the cloud
+  const double beyond = is_room(cloud, survey, up) ? 0.0 : 4.0;  // more than any way through the cloud
   const std::size_t stride = cloud.size() / MOST_VOTERS + 1;
   std::vector<std::int8_t> votes(cloud.size());
   parallel_each(stage, cloud.size() / stride, [&](std::size_t n) {
     const std::size_t i = n * stride;
     if (!cloud.on_surface(i)) return;
-    const glm::dvec3 normal(cloud.normal[i]);
-    const glm::dvec3 side = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(normal, side)), v = glm::cross(normal, u);
+    const PointRays rays(cloud, i);
     double room = 0.0;
-    for (std::uint32_t ray = 0; ray < 4; ++ray) {
-      const glm::dvec3 local = direction(static_cast<std::uint32_t>(n % 1024) * 4 + ray + 1);
-      for (const double sign : {1.0, -1.0}) {
-        const glm::dvec3 dir = local.x * u + local.y * v + sign * local.z * normal;
-        const glm::dvec3 origin = glm::dvec3(cloud.coord[i]) + sign * RAY_START * space.edge() * normal;
-        room += sign * std::min(space.free_path(origin, dir).value_or(beyond), 4.0);
-      }
-    }
+    for (std::uint32_t ray = 0; ray < 4; ++ray)
+      for (const double sign : {1.0, -1.0})
+        room +=
+            sign *
+            std::min(
+                rays.cast(space, static_cast<std::uint32_t>(n % 1024) * 4 + ray + 1, sign).value_or(beyond),
+                4.0);
     votes[i] = static_cast<std::int8_t>(room > 0.0 ? 1 : room < 0.0 ? -1 : 0);
   });
   return votes;
@@ -195,10 +213,11 @@ void ask_neighbours(const Cloud& cloud, const Survey& survey, const Parts& parts
   }
 }
 
-}  // namespace
-
-bool is_room(const Cloud& cloud, const Survey& survey) {
+/// Whether much of the cloud lies in planes that all but few points are on one side of, and these are not all upright.
+bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
   constexpr std::size_t PLANES = 512, POINTS = 2000;
+  constexpr double LEVEL_SHARE =
+      0.03;  // of the planes' squared normals along the vertical: noise leaves 0.01
   const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
   std::vector<std::uint8_t> bounds(planes);
   tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
@@ -217,12 +236,84 @@ bool is_room(const Cloud& cloud, const Survey& survey) {
     bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
   });
   const auto count = static_cast<double>(std::count(bounds.begin(), bounds.end(), 1));
-  return count > ROOM_SHARE * static_cast<double>(planes);
+  if (!(count > ROOM_SHARE * static_cast<double>(planes))) return false;
+  double along_up = 0.0;
+  for (std::size_t p = 0; p < planes; ++p) {
+    const double along = glm::dot(glm::dvec3(cloud.normal[p * cloud.size() / planes]), up);
+    along_up += bounds[p] != 0 ? along * along : 0.0;
+  }
+  return along_up > LEVEL_SHARE * count;
 }
 
-std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const Stage& stage) {
+/// The share of the free cells that are enclosed: is_room has the rule.
+double enclosed_share(const Occupancy& space, const glm::dvec3& up) {
+  constexpr std::size_t PLACES = 2048;
+  constexpr std::uint32_t RAYS = 96;
+  constexpr double LEVEL = 0.5, OVER = 0.7, BELOW = -0.5;  // heights of directions, which overlap a little
+  constexpr double LEVEL_MET = 0.85, UPRIGHT_MET = 0.8;
+  const glm::dvec3 side = std::abs(up.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = glm::normalize(glm::cross(up, side)), v = glm::cross(up, u);
+  const std::vector<glm::dvec3> places = space.free_places(PLACES);
+  std::vector<std::uint8_t> enclosed(places.size());
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t n) {
+    std::array<double, 3> cast{}, met{};
+    for (std::uint32_t ray = 0; ray < RAYS; ++ray) {
+      const double height = 1.0 - (2.0 * ray + 1.0) / RAYS, ring = std::sqrt(1.0 - height * height);
+      const double turn =
+          std::numbers::pi * (1.0 + std::sqrt(5.0)) * (ray + 0.5);  // a spiral by the golden angle
+      const glm::dvec3 dir = ring * (std::cos(turn) * u + std::sin(turn) * v) + height * up;
+      const double meets = space.free_path(places[n], dir) ? 1.0 : 0.0;
+      const std::array<bool, 3> part{std::abs(height) < LEVEL, height > OVER, height < BELOW};
+      for (std::size_t k = 0; k < part.size(); ++k)
+        if (part[k]) cast[k] += 1.0, met[k] += meets;
+    }
+    enclosed[n] =
+        met[0] > LEVEL_MET * cast[0] && met[1] > UPRIGHT_MET * cast[1] && met[2] > UPRIGHT_MET * cast[2];
+  });
+  return static_cast<double>(std::count(enclosed.begin(), enclosed.end(), 1)) /
+         std::max(1.0, static_cast<double>(places.size()));
+}
+
+/// Whether most of the surfaces are upright or level and some see out on neither side.
+bool is_furnished(const Cloud& cloud, const Occupancy& space, const glm::dvec3& up) {
+  constexpr std::size_t ASKED = 2048;
+  constexpr std::uint32_t RAYS = 12;
+  constexpr double LEVEL = 0.985, UPRIGHT = 0.17, BUILT = 0.5;  // within 10 degrees
+  constexpr std::uint32_t SEES_OUT = 4;                         // of the rays to one side
+  constexpr double DEEP = 0.015;
+  const std::size_t asked = std::min(ASKED, cloud.size());
+  std::vector<std::uint8_t> built(asked), deep(asked);
+  tbb::parallel_for(std::size_t{0}, asked, [&](std::size_t n) {
+    const std::size_t i = n * cloud.size() / asked;
+    if (!cloud.on_surface(i)) return;
+    const double along = std::abs(glm::dot(glm::dvec3(cloud.normal[i]), up));
+    built[n] = along > LEVEL || along < UPRIGHT;
+    const PointRays rays(cloud, i);
+    deep[n] = 1;
+    for (const double sign : {1.0, -1.0}) {
+      std::uint32_t out = 0;
+      for (std::uint32_t ray = 1; ray <= RAYS; ++ray) out += rays.cast(space, ray, sign) ? 0 : 1;
+      if (out >= SEES_OUT) deep[n] = 0;
+    }
+  });
+  const auto share = [asked](const std::vector<std::uint8_t>& of) {
+    return static_cast<double>(std::count(of.begin(), of.end(), 1)) / static_cast<double>(asked);
+  };
+  return share(built) > BUILT && share(deep) > DEEP;
+}
+
+}  // namespace
+
+bool is_room(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
+  constexpr double ENCLOSED = 0.3;  // a ball in its box has half of it, on a plinth an eighth
+  if (is_bounded(cloud, survey, up)) return true;
+  const Occupancy space(cloud, cell_edge(survey));
+  return enclosed_share(space, up) > ENCLOSED && is_furnished(cloud, space, up);
+}
+
+std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const glm::dvec3& up, const Stage& stage) {
   const Parts parts = find_turned_parts(cloud, survey);
-  const std::vector<std::int8_t> cast = cast_votes(cloud, survey, stage);
+  const std::vector<std::int8_t> cast = cast_votes(cloud, survey, up, stage);
   std::vector<Votes> votes(cloud.size());  // of parts, at their least members
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     if (cast[i] == 0) continue;

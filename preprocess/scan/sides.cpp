@@ -104,7 +104,7 @@ SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<s
     turn_up(cloud, estimated, *axis);
     return {.rung = SideRung::up, .terrain = glm::dot(*axis, up) > LEVEL};
   }
-  return {.rung = SideRung::votes, .unsure = turn_by_votes(cloud, survey, stage)};
+  return {.rung = SideRung::votes, .unsure = turn_by_votes(cloud, survey, up, stage)};
 }
 
 }  // namespace splatray

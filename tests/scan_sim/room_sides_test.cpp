@@ -1,0 +1,109 @@
+// Sides where nothing says where the scanner was: bodies that look like rooms by their planes, rooms by what they enclose.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "engine/scene/splat.h"
+#include "tests/scan_sim/built_scan.h"
+
+namespace splatray::testing {
+namespace {
+
+/// Points with the side that was seen.
+struct SeenPoints {
+  Points points;
+  std::vector<glm::dvec3> normal;
+
+  double step = 0.04;  ///< between points
+
+  /// A rectangle from a corner along two edges, a point every step or so, but for those that `hidden` says; seen from the side that
+  /// cross(a, b) looks to.
+  void add(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b,
+           const std::function<bool(const glm::dvec3&)>& hidden = {}) {
+    std::uniform_real_distribution<double> jitter(0.1, 0.9);
+    const double length_a = glm::length(a), length_b = glm::length(b);
+    for (double s = 0.0; s < length_a; s += step)
+      for (double t = 0.0; t < length_b; t += step) {
+        const glm::dvec3 place = corner + a * ((s + step * jitter(random_)) / length_a) +
+                                 b * ((t + step * jitter(random_)) / length_b);
+        if (hidden && hidden(place)) continue;
+        points.position.push_back(place);
+        normal.push_back(glm::normalize(glm::cross(a, b)));
+      }
+  }
+  /// The four upright sides of a box; `out`: seen from outside, else from inside.
+  void add_walls(const glm::dvec3& low, const glm::dvec3& high, bool out,
+                 const std::function<bool(const glm::dvec3&)>& hidden = {}) {
+    const glm::dvec3 up(0, 0, high.z - low.z), along(high.x - low.x, 0, 0), across(0, high.y - low.y, 0);
+    const auto wall = [&](const glm::dvec3& corner, const glm::dvec3& a) {
+      out ? add(corner, a, up, hidden) : add(corner, up, a, hidden);
+    };
+    wall(low, along), wall(low + along, across);
+    wall(low + along + across, -along), wall(low + across, -across);
+  }
+  void add_ball(const glm::dvec3& middle, double radius, int count) {
+    std::normal_distribution<double> gauss;
+    for (int i = 0; i < count; ++i) {
+      const glm::dvec3 out = glm::normalize(glm::dvec3(gauss(random_), gauss(random_), gauss(random_)));
+      points.position.push_back(middle + radius * out);
+      normal.push_back(out);
+    }
+  }
+
+ private:
+  std::mt19937_64 random_{9};
+};
+
+/// The share of right sides.
+double right_sides(const SeenPoints& seen) {
+  const BuiltScan built = build_scan(seen.points);
+  double right = 0.0;
+  for (std::size_t s = 0; s < built.scene.data_pool.size(); ++s)
+    right += glm::dot(glm::dvec3(unpack_splat(built.scene.data_pool[s]).normal),
+                      seen.normal[number_of(built.scene, s)]) > 0.0
+                 ? 1.0
+                 : 0.0;
+  return right / static_cast<double>(built.scene.data_pool.size());
+}
+
+TEST(RoomSides, AStatuesPlinthIsNoRoom) {
+  SeenPoints seen;
+  seen.step = 0.02;  // a ball of 0.9 m is more than a few points across
+  seen.add_walls({-0.6, -0.6, 0.0}, {0.6, 0.6, 1.0}, /*out=*/true);
+  seen.add({-0.6, -0.6, 1.0}, {1.2, 0, 0}, {0, 1.2, 0});
+  seen.add_ball({0.0, 0.0, 1.5}, 0.45, 9000);
+  EXPECT_GT(right_sides(seen), 0.97);
+}
+
+TEST(RoomSides, HalfARoomIsSeenFromWithin) {
+  SeenPoints seen;
+  seen.add({0, 0, 0}, {6, 0, 0}, {0, 5, 0});
+  seen.add({0, 0, 0}, {0, 5, 0}, {0, 0, 2.7});
+  seen.add({0, 0, 0}, {0, 0, 2.7}, {6, 0, 0});
+  EXPECT_GT(right_sides(seen), 0.97);
+}
+
+/// A second room lies beyond each outer wall of the first, so that hardly a plane bounds all.
+TEST(RoomSides, RoomsBehindDoorsAreRooms) {
+  const auto door = [](const glm::dvec3& p) {
+    return p.z < 2.0 && (std::abs(p.x - 1.0) < 0.5 || std::abs(p.y - 1.0) < 0.5);
+  };
+  SeenPoints seen;
+  for (const glm::dvec3 corner : {glm::dvec3(0, 0, 0), glm::dvec3(4.2, 0.5, 0.2), glm::dvec3(-0.7, 4.2, 0.4),
+                                  glm::dvec3(-4.2, -0.5, 0.6), glm::dvec3(0.7, -4.2, 0.8)}) {
+    const glm::dvec3 high = corner + glm::dvec3(4.0, 4.0, 2.6 + 0.1 * corner.z);
+    seen.add_walls(corner, high, /*out=*/false, door);
+    seen.add(corner, {4, 0, 0}, {0, 4, 0});
+    seen.add({corner.x, corner.y, high.z}, {0, 4, 0}, {4, 0, 0});
+    seen.add_walls(corner + glm::dvec3(1.8, 1.8, 0), corner + glm::dvec3(2.6, 2.6, 0.8), /*out=*/true);
+    seen.add(corner + glm::dvec3(1.8, 1.8, 0.8), {0.8, 0, 0}, {0, 0.8, 0});
+  }
+  EXPECT_GT(right_sides(seen), 0.95);
+}
+
+}  // namespace
+}  // namespace splatray::testing
