@@ -13,12 +13,15 @@
 namespace splatray {
 namespace {
 
-constexpr int PASSES = 5;              ///< the last one's taps lie 16 pixels apart
-constexpr float BASE_LEAST = 0.05F;    ///< light of darker surfaces is that of such ones
-constexpr float NOISE_WIDTH = 1.5F;    ///< standard errors of a difference by which light may differ
-constexpr float OWN_WIDTH = 6.0F;      ///< the same in the half that is filtered, whose own outliers stay out
-constexpr float RIM_LIKENESS = 0.01F;  ///< less, and a neighbour is of another surface
+constexpr int PASSES = 5;             ///< the last one's taps lie 16 pixels apart
+constexpr float BASE_LEAST = 0.05F;   ///< light of darker surfaces is that of such ones
+constexpr float NOISE_WIDTH = 2.25F;  ///< standard errors of a difference by which light may differ
+constexpr float OWN_WIDTH = 6.0F;     ///< the same in the half that is filtered, whose own outliers stay out
+/// How many times the light around a pixel may give to its surface: more would tint it by the chance of one sample.
+constexpr float EXCESS_MOST = 32.0F;
+constexpr float RIM_LIKENESS = 0.01F;   ///< less, and a neighbour is of another surface
 constexpr float RADIANCE_MOST = 1e15F;  ///< light of more, over a base colour, has a square beyond float32
+constexpr float LEAST_LIKE = 1e-6F;     ///< pixels less alike, all of them together, share no light
 constexpr float KERNEL[] = {0.375F, 0.25F, 0.0625F};  ///< B3 spline
 constexpr float SMALL_KERNEL[] = {0.5F, 0.25F};       ///< of the guide
 
@@ -35,6 +38,8 @@ struct Half {
 struct Light {
   std::array<Half, 2> halves;
   Values variance;
+  /// What single pixels found by rare chance, of all samples: it belongs to the surface around.
+  std::array<Values, 3> excess;
 };
 
 /// By what pixels are compared: the brightness of both halves, a little smoothed, and its variance.
@@ -89,7 +94,7 @@ SPLATRAY_VECTOR_CLONES void add_variance(const float* weight, const float* varia
 class Filter {
  public:
   Filter(const Image& image, std::span<const vec4> base)
-      : image_(image), base_(base), rows_(image.width, image.height), surfaces_(image) {}
+      : image_(image), base_(base), rows_(image.width, image.height), surfaces_(image, base), rim_(rims()) {}
 
   /// Image::rgba without noise.
   std::vector<vec4> run() const {
@@ -97,6 +102,10 @@ class Filter {
     const std::vector<vec4> unfiltered = joined(light);
     find_variance(light);
     for (int pass = 0; pass < PASSES; ++pass) light = filtered(light, guide_of(light), 1 << pass);
+    for (Half& half : light.halves)
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        for (std::size_t i = 0; i < light.variance.size(); ++i)
+          half.rgb[channel][i] += light.excess[channel][i];
     return with_limited_rims(joined(light), unfiltered);
   }
 
@@ -114,14 +123,20 @@ class Filter {
         halves[1][i] = (all - share * part) / (1.0F - share);
       }
     });
+    const Halves found = halves;
     limit_fireflies(halves, image_.width);
     Light light;
-    for (std::size_t half = 0; half < 2; ++half)
-      for (int channel = 0; channel < 3; ++channel) {
-        Values& values = light.halves[half].rgb[static_cast<std::size_t>(channel)];
-        values.resize(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) values[i] = halves[half][i][channel];
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto c = static_cast<std::size_t>(channel);
+      for (Values* values : {&light.halves[0].rgb[c], &light.halves[1].rgb[c], &light.excess[c]})
+        values->resize(pixels);
+      for (std::size_t i = 0; i < pixels; ++i) {
+        for (std::size_t half = 0; half < 2; ++half) light.halves[half].rgb[c][i] = halves[half][i][channel];
+        if (rim_[i] != 0) continue;
+        light.excess[c][i] = share * (found[0][i][channel] - halves[0][i][channel]) +
+                             (1.0F - share) * (found[1][i][channel] - halves[1][i][channel]);
       }
+    }
     return light;
   }
 
@@ -174,15 +189,14 @@ class Filter {
   /// than both. It is made no brighter than the pixels around that are of one surface, or its own samples.
   [[nodiscard]] std::vector<vec4> with_limited_rims(const std::vector<vec4>& filtered,
                                                     const std::vector<vec4>& unfiltered) const {
-    const std::vector<char> rim = rims();
     std::vector<vec4> result = filtered;
     for_surfaces([&](std::size_t first, std::size_t count) {
       for (std::size_t i = first; i < first + count; ++i) {
-        if (rim[i] == 0 || !surfaces_.is_surface(i)) continue;
+        if (rim_[i] == 0 || !surfaces_.is_surface(i)) continue;
         vec3 most(unfiltered[i]);
         bool alone = true;  // as all are where points lie loosely
         rows_.around(i, 1, 2, 1, [&](const Taps& taps) {
-          if (rim[taps.tap] != 0) return;
+          if (rim_[taps.tap] != 0) return;
           alone = false;
           most = glm::max(most, vec3(filtered[taps.tap]));
         });
@@ -192,26 +206,41 @@ class Filter {
     return result;
   }
 
-  /// Two halves say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it.
+  /// Two halves say little about one pixel's noise; the mean over 7 x 7 of the same surface estimates it, and by how it grows with
+  /// the light there that of a brighter pixel: what both halves find by chance is rare light, too.
   void find_variance(Light& light) const {
     const std::size_t pixels = image_.rgba.size();
-    Values own(pixels);
+    Values own(pixels), square(pixels);
     rows_.for_pieces([&](std::size_t first, std::size_t count) {
       for (std::size_t i = first; i < first + count; ++i) {
-        const float apart = luminance(light.halves[0], i) - luminance(light.halves[1], i);
-        own[i] = 0.5F * apart * apart;
+        const float a = luminance(light.halves[0], i), b = luminance(light.halves[1], i);
+        own[i] = 0.5F * (a - b) * (a - b);
+        square[i] = 0.25F * (a + b) * (a + b);
       }
     });
     light.variance.assign(pixels, 0.0F);
     for_surfaces([&](std::size_t first, std::size_t count) {
-      Piece sum{}, weights{};
+      Piece sum{}, squares{}, weights{};
       around(first, count, 3, 1, [&](const Taps& taps, const float* like) {
         add_weighted(like, &own[taps.tap], taps.count, &sum[taps.first]);
+        add_weighted(like, &square[taps.tap], taps.count, &squares[taps.first]);
         for (std::size_t k = 0; k < taps.count; ++k) weights[taps.first + k] += like[k];
       });
-      for (std::size_t k = 0; k < count; ++k)
-        if (surfaces_.is_surface(first + k)) light.variance[first + k] = sum[k] / weights[k];
+      for (std::size_t k = 0; k < count; ++k) {
+        if (!surfaces_.is_surface(first + k)) continue;
+        const float brighter =
+            rim_[first + k] == 0 && square[first + k] > 0.0F ? square[first + k] / squares[k] : 0.0F;
+        light.variance[first + k] = sum[k] * std::max(1.0F / weights[k], brighter);
+        limit_excess(light, first + k, EXCESS_MOST * std::sqrt(squares[k] / weights[k]));
+      }
     });
+  }
+
+  static void limit_excess(Light& light, std::size_t pixel, float most) {
+    std::array<Values, 3>& excess = light.excess;
+    const float bright = luminance(vec3(excess[0][pixel], excess[1][pixel], excess[2][pixel]));
+    if (bright > most)
+      for (Values& channel : excess) channel[pixel] *= most / bright;
   }
 
   [[nodiscard]] Guide guide_of(const Light& light) const {
@@ -248,8 +277,8 @@ class Filter {
   [[nodiscard]] Light filtered(const Light& light, const Guide& guide, int step) const {
     Light result = light;
     for_surfaces([&](std::size_t first, std::size_t count) {
-      std::array<Piece, 3> sums[2] = {};
-      Piece variance{}, weights[2] = {}, weight[2];
+      std::array<Piece, 3> sums[2] = {}, excess{};
+      Piece variance{}, weights[2] = {}, weight[2], others{}, spread;
       around(first, count, 2, step, [&](const Taps& taps, const float* like) {
         const float kernel = KERNEL[std::abs(taps.dx / step)] * KERNEL[std::abs(taps.dy / step)];
         find_weights({guide, taps.center}, {guide, taps.tap}, like, kernel, taps.count, weight[0].data(),
@@ -261,9 +290,19 @@ class Filter {
                          &sums[half][channel][taps.first]);
         }
         add_variance(weight[0].data(), &light.variance[taps.tap], taps.count, &variance[taps.first]);
+        if (step == 1 && taps.center == taps.tap) return;  // a pixel alone loses its excess
+        for (std::size_t k = 0; k < taps.count; ++k) {
+          spread[k] = kernel * like[k];
+          others[taps.first + k] += spread[k];
+        }
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          add_weighted(spread.data(), &light.excess[channel][taps.tap], taps.count,
+                       &excess[channel][taps.first]);
       });
       for (std::size_t k = 0; k < count; ++k) {
         if (!surfaces_.is_surface(first + k)) continue;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          result.excess[channel][first + k] = excess[channel][k] / (others[k] + LEAST_LIKE);
         for (std::size_t half = 0; half < 2; ++half)
           for (std::size_t channel = 0; channel < 3; ++channel)
             result.halves[half].rgb[channel][first + k] = sums[half][channel][k] / weights[half][k];
@@ -277,6 +316,7 @@ class Filter {
   const std::span<const vec4> base_;
   const PixelRows rows_;
   const SurfaceLikeness surfaces_;
+  const std::vector<char> rim_;
 };
 
 bool is_finite(const vec4& v) {

@@ -15,9 +15,9 @@ void make_finite(Image& image, std::span<vec4> base);
 /// The picture without its noise, as an edge-avoiding wavelet filter sees it (Dammertz et al. 2010, "Edge-Avoiding À-Trous
 /// Wavelet Transform for fast Global Illumination Filtering"), guided by normals, depths, and the noise that two independent
 /// pictures show (Image::part): each half is filtered with weights taken from the other (Rousselle et al. 2012,
-/// "Adaptive Rendering with Non-Local Means Filtering", sec. 4). What is bright by chance in one of the two alone loses light.
-/// Light is filtered, `base` (base colours of the same pixels, rgb linear) is not. Both go through make_finite
-/// first, and the picture stays finite. Asserts that the image has aov and part.
+/// "Adaptive Rendering with Non-Local Means Filtering", sec. 4). Pixels that are bright by chance in one of the two alone give light to
+/// the surface around them. Light over `base` (base colours of the same pixels, rgb linear) is filtered, among pixels of like base
+/// colours. Both go through make_finite first, and the picture stays finite. Asserts that the image has aov and part.
 [[nodiscard]] Image denoised(Image image, std::vector<vec4> base);
 
 }  // namespace splatray

@@ -2,6 +2,7 @@
 #pragma once
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/image/image.h"
@@ -22,21 +23,21 @@ namespace splatray {
   return part * std::bit_cast<float>((whole + 127) << 23);
 }
 
-/// The surfaces of an image with aov, a list for each number.
+/// The surfaces of an image with aov, a list for each number. `base`: base colours of its pixels, 0 to 1.
 class SurfaceLikeness {
  public:
-  explicit SurfaceLikeness(const Image& image);
+  SurfaceLikeness(const Image& image, std::span<const vec4> base);
 
   [[nodiscard]] bool is_surface(std::size_t pixel) const { return object_[pixel] != NO_OBJECT; }
   /// Whether any of `count` pixels from `first` on shows a surface.
   [[nodiscard]] bool any_surface(std::size_t first, std::size_t count) const;
-  /// 0 to 1 for each pixel with its neighbour, from like[taps.first] on: of the same object, by the angle between normals and by
-  /// the step of depth beyond the surface's own slope. 1 of a pixel with itself. Without meaning where the pixel shows no surface.
+  /// 0 to 1 for each pixel with its neighbour, from like[taps.first] on: of the same object, by the angle between normals, by the
+  /// step of depth beyond the surface's own slope and by the base colours' distance. 1 of a pixel with itself. Without meaning where the pixel shows no surface.
   void find(const Taps& taps, Piece& like) const;
 
  private:
   std::vector<std::uint32_t> object_;
-  std::vector<float> normal_x_, normal_y_, normal_z_, depth_;
+  std::vector<float> normal_x_, normal_y_, normal_z_, depth_, base_r_, base_g_, base_b_;
   /// Least change of depth towards a neighbour: at edges that of the pixel's own surface.
   std::vector<float> slope_x_, slope_y_;
 };

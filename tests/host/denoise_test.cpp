@@ -115,5 +115,74 @@ TEST(DenoisePoison, AWallAtDepthZeroIsFiltered) {
   EXPECT_NEAR(deviation_at(0.0F), deviation_at(1.0F), 1e-6);
 }
 
+/// A wall in a light that few samples find: one of eight of the halves has light, eight times the mean on the mean.
+struct RareLight {
+  static constexpr float MEAN = 0.5F;
+  Picture picture{11};
+  Image clean;
+
+  RareLight() {
+    for (std::size_t i = 0; i < picture.base.size(); ++i) {
+      const auto found = [&] {
+        return picture.random() % 8 == 0
+                   ? 8.0F * MEAN * std::exponential_distribution<float>()(picture.random)
+                   : 0.0F;
+      };
+      const float half = found(), other = found();
+      picture.base[i] = vec4(1.0F);
+      picture.image.aov[i].object = 0;
+      picture.image.aov[i].z = 1.0F;
+      picture.image.part[i] = vec4(vec3(half), 1.0F);
+      picture.image.rgba[i] = vec4(vec3(0.5F * (half + other)), 1.0F);
+    }
+    clean = denoised(picture.image, picture.base);
+  }
+};
+
+TEST(DenoiseRareLight, KeepsItsEnergy) {
+  const RareLight wall;
+  double before = 0.0, after = 0.0;
+  for (std::size_t i = 0; i < wall.clean.rgba.size(); ++i) {
+    before += double{wall.picture.image.rgba[i].x};
+    after += double{wall.clean.rgba[i].x};
+  }
+  EXPECT_NEAR(after / before, 1.0, 0.05);  // 0.40 without what is taken from bright pixels
+}
+
+TEST(DenoiseRareLight, LeavesNoDots) {
+  const RareLight wall;
+  double squares = 0.0;
+  float most = 0.0F;
+  for (const vec4& pixel : wall.clean.rgba) {
+    squares += std::pow(double{pixel.x - RareLight::MEAN}, 2.0);
+    most = std::max(most, pixel.x);
+  }
+  EXPECT_LT(most, 6.0F * RareLight::MEAN);
+  EXPECT_LT(std::sqrt(squares / double(wall.clean.rgba.size())), 0.4 * double{RareLight::MEAN});
+}
+
+/// Stripes of two base colours, 3 pixels wide, under a highlight that is the same on both: what light over base colour is of one stripe is
+/// not what it is of the other, and both keep theirs.
+TEST(DenoisePaint, StripesUnderAHighlightStaySharp) {
+  constexpr float HIGHLIGHT = 0.1F, LIGHT = 0.5F;
+  Picture picture(12);
+  std::normal_distribution<float> noise(0.0F, 0.05F);
+  std::vector<float> truth;
+  for (std::size_t i = 0; i < picture.base.size(); ++i) {
+    const float base = i % WIDTH / 3 % 2 == 0 ? 0.8F : 0.1F;
+    truth.push_back(base * LIGHT + HIGHLIGHT);
+    const float half = truth[i] + noise(picture.random), other = truth[i] + noise(picture.random);
+    picture.base[i] = vec4(vec3(base), 1.0F);
+    picture.image.aov[i].object = 0;
+    picture.image.aov[i].z = 1.0F;
+    picture.image.part[i] = vec4(vec3(half), 1.0F);
+    picture.image.rgba[i] = vec4(vec3(0.5F * (half + other)), 1.0F);
+  }
+  const Image clean = denoised(picture.image, picture.base);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) squares += std::pow(double{clean.rgba[i].x - truth[i]}, 2.0);
+  EXPECT_LT(std::sqrt(squares / double(truth.size())), 0.01);
+}
+
 }  // namespace
 }  // namespace splatray
