@@ -306,11 +306,12 @@ struct SPLATRAY_API Image {
   /// Brightness of what is no .exr, stops, and its tone curve, "neutral", "agx", "soft" or "none": as asked for, or what suits the
   /// picture.
   double exposure = 0.0;
+  std::vector<Float3> albedo{};  ///< base colour, linear, 0 to 1; empty unless "aov" has albedo
   std::string tone = "neutral";
   std::vector<Choice> choices{};  ///< view, colours, look, exposure, noise
 
   /// Writes .png, .jpg (without alpha) or .webp (sRGB, 8 bit, through exposure and tone) or .exr (linear float; with Z, N.X N.Y N.Z,
-  /// id and error where there are such channels). WebP needs the package splatray-oiio, which wheels do not have. Throws Error (usage, failed); an older file then stays as it was.
+  /// id, error and albedo where there are such channels). WebP needs the package splatray-oiio, which wheels do not have. Throws Error (usage, failed); an older file then stays as it was.
   void save(const std::filesystem::path& file) const;
   /// The bytes of the .png.
   [[nodiscard]] std::vector<unsigned char> png() const;

@@ -142,7 +142,8 @@ using Vectors = nb::ndarray<const float, nb::shape<-1, -1, DEPTH>, nb::c_contig,
 api::Image* image_of(const Vectors<4>& pixels, const std::optional<Channel<float>>& depth,
                      const std::optional<Vectors<3>>& normal,
                      const std::optional<Channel<std::int32_t>>& object,
-                     const std::optional<Channel<float>>& error, double exposure, const std::string& tone) {
+                     const std::optional<Channel<float>>& error, const std::optional<Vectors<3>>& albedo,
+                     double exposure, const std::string& tone) {
   auto image = std::make_unique<api::Image>();
   image->height = static_cast<std::uint32_t>(pixels.shape(0));
   image->width = static_cast<std::uint32_t>(pixels.shape(1));
@@ -151,6 +152,7 @@ api::Image* image_of(const Vectors<4>& pixels, const std::optional<Channel<float
   image->normal = elements<api::Float3>(normal, *image);
   image->object = elements<std::int32_t>(object, *image);
   image->error = elements<float>(error, *image);
+  image->albedo = elements<api::Float3>(albedo, *image);
   image->exposure = exposure;
   image->tone = tone;
   return image.release();
@@ -199,7 +201,8 @@ void add_scene(nb::module_& module) {
 
 void add_image(nb::module_& module) {
   module.def("image_of", image_of, nb::arg("pixels"), nb::arg("depth").none(), nb::arg("normal").none(),
-             nb::arg("object").none(), nb::arg("error").none(), nb::arg("exposure"), nb::arg("tone"));
+             nb::arg("object").none(), nb::arg("error").none(), nb::arg("albedo").none(), nb::arg("exposure"),
+             nb::arg("tone"));
   nb::class_<api::Image>(module, "Image")
       .def_ro("width", &api::Image::width)
       .def_ro("height", &api::Image::height)
@@ -208,6 +211,7 @@ void add_image(nb::module_& module) {
       .def_prop_ro("normal", [](api::Image& image) { return channel<float>(image, image.normal, 3); })
       .def_prop_ro("object", [](api::Image& image) { return channel<std::int32_t>(image, image.object, 1); })
       .def_prop_ro("error", [](api::Image& image) { return channel<float>(image, image.error, 1); })
+      .def_prop_ro("albedo", [](api::Image& image) { return channel<float>(image, image.albedo, 3); })
       .def_prop_ro("choices", [](const api::Image& image) { return choices_of(image.choices); })
       .def_rw("exposure", &api::Image::exposure)
       .def_rw("tone", &api::Image::tone)

@@ -21,31 +21,42 @@ void put_error(const Image& image, std::size_t pixel, std::vector<float>& values
   values.push_back(image.error[pixel]);
 }
 
-/// Whether one of the set is estimated of the samples' noise, or not.
-bool any_of(AovSet set, bool of_noise) {
-  for (std::size_t i = 0; i < all_aovs().size(); ++i)
-    if (has_aov(set, i) && all_aovs()[i].of_noise == of_noise) return true;
-  return false;
+void put_albedo(const Image& image, std::size_t pixel, std::vector<float>& values) {
+  const vec4& albedo = image.albedo[pixel];
+  values.insert(values.end(), {albedo.x, albedo.y, albedo.z});
+}
+
+bool has_source(const Image& image, AovSource source) {
+  if (source == AovSource::noise) return !image.error.empty();
+  return source == AovSource::albedo ? !image.albedo.empty() : !image.aov.empty();
 }
 
 }  // namespace
 
 std::span<const Aov> all_aovs() {
   static const std::vector<Aov> AOVS = {
-      {"depth", "distance from the eye", {"Z"}, false, put_depth},
-      {"normal", "unit, world space", {"N.X", "N.Y", "N.Z"}, false, put_normal},
-      {"id", "object's index, -1 on a miss", {"id"}, false, put_object},
-      {"error", "estimated, of the radiance", {"error"}, true, put_error}};
+      {"depth", "distance from the eye", {"Z"}, AovSource::centre_ray, put_depth},
+      {"normal", "unit, world space", {"N.X", "N.Y", "N.Z"}, AovSource::centre_ray, put_normal},
+      {"id", "object's index, -1 on a miss", {"id"}, AovSource::centre_ray, put_object},
+      {"error", "estimated, of the radiance", {"error"}, AovSource::noise, put_error},
+      {"albedo",
+       "base colour, linear, 0 to 1",
+       {"albedo.R", "albedo.G", "albedo.B"},
+       AovSource::albedo,
+       put_albedo}};
   return AOVS;
 }
 
-bool needs_centre_rays(AovSet set) { return any_of(set, false); }
-bool needs_noise(AovSet set) { return any_of(set, true); }
+bool needs(AovSet set, AovSource source) {
+  for (std::size_t i = 0; i < all_aovs().size(); ++i)
+    if (has_aov(set, i) && all_aovs()[i].source == source) return true;
+  return false;
+}
 
 AovSet aovs_of(const Image& image) {
   AovSet set = 0;
   for (std::size_t i = 0; i < all_aovs().size(); ++i)
-    if (!(all_aovs()[i].of_noise ? image.error.empty() : image.aov.empty())) set |= 1U << i;
+    if (has_source(image, all_aovs()[i].source)) set |= 1U << i;
   return set;
 }
 

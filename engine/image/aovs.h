@@ -8,11 +8,18 @@
 
 namespace splatray {
 
+/// Where an AOV's values come from.
+enum class AovSource {
+  centre_ray,  ///< Image::aov
+  noise,       ///< Image::error
+  albedo       ///< Image::albedo
+};
+
 struct Aov {
   const char* name;  ///< of --aov
   const char* help;
   std::vector<const char*> channels;  ///< of an EXR file
-  bool of_noise = false;  ///< estimated of all samples, else of the ray through each pixel's centre
+  AovSource source;
   /// Puts a pixel's values behind the others, one a channel.
   void (*put)(const Image& image, std::size_t pixel, std::vector<float>& values);
 };
@@ -23,8 +30,8 @@ struct Aov {
 /// Some of them: a bit each, in their order.
 using AovSet = std::uint32_t;
 [[nodiscard]] inline bool has_aov(AovSet set, std::size_t aov) { return (set >> aov & 1U) != 0; }
-[[nodiscard]] bool needs_centre_rays(AovSet set);
-[[nodiscard]] bool needs_noise(AovSet set);
+/// Whether any of the set comes from there.
+[[nodiscard]] bool needs(AovSet set, AovSource source);
 /// All that an image has.
 [[nodiscard]] AovSet aovs_of(const Image& image);
 /// Channels of all in the set.

@@ -18,6 +18,8 @@ struct Image {
   /// Means of the first `part_share` of each pixel's samples; empty as `error` is. They and the others are independent pictures.
   std::vector<vec4> part{};
   float part_share = 0.5F;
+  /// Base colours of the pixels, linear, 0 to 1, with coverage; empty unless asked for.
+  std::vector<vec4> albedo{};
 };
 
 /// Bytes a pixel of the picture that is made with these settings, at most.

@@ -174,8 +174,9 @@ Request random_request(Dice& dice) {
   request.output = random_sequence(dice, request);
   request.output.path = odd_text(dice) + "/b##.exr";
   request.look.exposure_ev = dice.between(-60.0, 60.0);
-  request.output.aovs = dice.below(8);
-  request.settings.aov = request.output.aovs != 0;
+  const std::uint32_t centre_rays = dice.below(8), albedo = dice.below(2) << 4U;
+  request.output.aovs = centre_rays | albedo;
+  request.settings.aov = centre_rays != 0;
   if (dice.chance(0.5)) request.output.stats_json = odd_text(dice);
   if (dice.chance(0.5) && !request.output.many()) request.output.reference = odd_text(dice);
   request.output.reference_threshold = dice.unit();

@@ -46,7 +46,7 @@ class CliParts : public CliTest {
 };
 
 TEST_F(CliParts, MergedTilesAreTheWholePictureByteForByte) {
-  const std::string aov = "--aov=depth,normal,id,error";
+  const std::string aov = "--aov=depth,normal,id,error,albedo";
   ASSERT_EQ(make("whole.exr", {aov}).code, 0);
   for (const std::string i : {"1", "2", "3"})
     ASSERT_EQ(make("part" + i + ".exr", {aov, "--tile=" + i + "/3"}).code, 0);
@@ -109,7 +109,7 @@ TEST_F(CliSampleRanges, TwoAreTheWholePictureByteForByte) { expect_same({{0, 64}
 TEST_F(CliSampleRanges, ThreeAreWithTheLastOneShorter) { expect_same({{0, 128}, {128, 64}, {192, 9}}, {}); }
 
 TEST_F(CliSampleRanges, TheyKeepOtherChannels) {
-  expect_same({{0, 64}, {64, 64}, {128, 64}}, {"--aov=depth,normal,id"});
+  expect_same({{0, 64}, {64, 64}, {128, 64}}, {"--aov=depth,normal,id,albedo"});
 }
 
 TEST_F(CliSampleRanges, ThePapersLookHasThemToo) { expect_same({{0, 64}, {64, 64}}, {"--look=paper"}); }

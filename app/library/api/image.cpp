@@ -24,7 +24,7 @@ void check(const Image& image) {
   const auto is_none_or_all = [pixels](std::size_t size) { return size == 0 || size == pixels; };
   if (pixels == 0 || image.pixels.size() != pixels || !is_none_or_all(image.depth.size()) ||
       image.normal.size() != image.depth.size() || image.object.size() != image.depth.size() ||
-      !is_none_or_all(image.error.size()))
+      !is_none_or_all(image.error.size()) || !is_none_or_all(image.albedo.size()))
     refuse("a picture whose arrays do not fit its size of " + std::to_string(image.width) + " x " +
                std::to_string(image.height),
            "as many elements as pixels");
@@ -49,6 +49,7 @@ splatray::Image inner_image(const Image& image) {
     pixel.normal = vector(image.normal[i]);
     pixel.object = image.object[i] < 0 ? NO_OBJECT : static_cast<std::uint32_t>(image.object[i]);
   }
+  for (const Float3& albedo : image.albedo) inner.albedo.emplace_back(vector(albedo), 1.0F);
   return inner;
 }
 
@@ -61,7 +62,7 @@ void Image::save(const std::filesystem::path& file) const {
     const bool shown = is_display_format(file), channels = !depth.empty();
     if (!is_picture_format(file))
       refuse("output '" + file.string() + "'", std::string("a name ending in ") + PICTURE_NAMES);
-    require_pixel_memory(*this, shown ? DISPLAY_WRITING_BYTES : exr_writing_bytes(channels ? 10 : 5));
+    require_pixel_memory(*this, shown ? DISPLAY_WRITING_BYTES : exr_writing_bytes(channels ? 13 : 8));
     const splatray::Image inner = inner_image(*this);
     if (shown) {
       const auto bytes = encode_display(display_image(inner, inner_display(*this)), {}, file);

@@ -85,7 +85,8 @@ Image outer_image(const splatray::Image& made, const Shot& shot) {
   static_assert(sizeof(vec4) == sizeof(std::array<float, 4>));
   std::memcpy(image.pixels.data(), made.rgba.data(), made.rgba.size() * sizeof(vec4));
   image.choices = choices_of(shot);
-  if (needs_noise(request.output.aovs)) image.error = made.error;
+  if (needs(request.output.aovs, AovSource::noise)) image.error = made.error;
+  for (const vec4& albedo : made.albedo) image.albedo.push_back(array(vec3(albedo)));
   image.exposure = request.look.exposure_ev.value_or(0.0);
   image.tone = TONE_NAMES[static_cast<std::size_t>(resolve_tone(request))];
   if (!request.settings.aov) return image;

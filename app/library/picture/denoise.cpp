@@ -107,6 +107,7 @@ std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view
   Settings plain = settings;
   plain.look = LOOK_BASE;
   plain.samples = std::min(settings.samples, BASE_SAMPLES);
+  plain.sample_offset = 0;  // the same of all ranges of a picture's samples
   plain.aov = plain.estimate_error = plain.counters = false;
   return tracer.render(look, view, plain, progress).rgba;
 }

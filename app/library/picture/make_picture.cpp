@@ -64,9 +64,13 @@ MadePicture traced_picture(const Shot& shot, SceneOnDevice& shown, const Camera&
   }
   if (made.samples_missing > 0) return made;
   if (request.output.despeckle) made.image = without_fireflies(std::move(made.image));
-  if (!shot.denoises()) return made;
+  const bool shows_albedo = needs(request.output.aovs, AovSource::albedo);
+  if (!shot.denoises() && !shows_albedo) return made;
   Stopwatch watch;
-  made.denoiser = remove_noise(made.image, base_colors(shown.tracer(), look, view, settings));
+  std::vector<vec4> base = base_colors(shown.tracer(), look, view, settings);
+  if (shows_albedo) made.image.albedo = base;
+  if (!shot.denoises()) return made;
+  made.denoiser = remove_noise(made.image, std::move(base));
   made.denoise_ms = watch.lap_ms();
   return made;
 }

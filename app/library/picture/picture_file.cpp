@@ -53,7 +53,9 @@ std::uint64_t made_image_bytes(const Shot& shot) {
   const PixelWindow made = shot.view.made();
   Settings settings = shot.traced_settings();
   settings.estimate_error = settings.estimate_error || shot.request.settings.has_goal();
-  return std::uint64_t{made.width} * made.height * image_bytes(settings);
+  const bool shows_albedo = needs(shot.request.output.aovs, AovSource::albedo);
+  return std::uint64_t{made.width} * made.height *
+         (image_bytes(settings) + (shows_albedo ? sizeof(vec4) : 0));
 }
 
 void require_picture_memory(const Shot& shot) {

@@ -94,14 +94,14 @@ void check_sample_range(const Request& request) {
   if (offset % whole_range(samples) != 0)
     fail(found + ", expected a multiple of " + std::to_string(whole_range(samples)));
   if (offset + samples > MOST) fail(found + ", expected at most " + std::to_string(MOST) + " in all");
-  if (needs_noise(request.output.aovs))
+  if (needs(request.output.aovs, AovSource::noise))
     fail("found --aov error with --sample-offset, expected it for all samples of a picture");
 }
 
 void check_noise(const Request& request) {
   const Request::Output& output = request.output;
   const bool denoise = output.denoise.value_or(false);
-  if (!denoise && !output.despeckle && !needs_noise(output.aovs)) return;
+  if (!denoise && !output.despeckle && !needs(output.aovs, AovSource::noise)) return;
   const std::string option = denoise ? "--denoise" : (output.despeckle ? "--despeckle" : "--aov error");
   if (!request.settings.has_goal() && request.settings.samples < 2)
     fail("found " + option + " with one sample, expected at least two");

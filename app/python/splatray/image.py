@@ -53,6 +53,11 @@ class Image:
         return self._core.error
 
     @property
+    def albedo(self) -> Optional[np.ndarray]:
+        """float32 (height, width, 3): base colour, linear, 0 to 1. None unless rendered with aov="albedo"."""
+        return self._core.albedo
+
+    @property
     def choices(self) -> Dict[str, str]:
         """What was not asked for and suits the scene: fields that ask for the same, and their values."""
         return dict(self._core.choices)
@@ -87,7 +92,7 @@ class Image:
         return self._core.png()
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _image_of, (self.pixels, self.depth, self.normal, self.object, self.error, self.exposure, self.tone)
+        return _image_of, (self.pixels, self.depth, self.normal, self.object, self.error, self.albedo, self.exposure, self.tone)
 
     def __eq__(self, other: object) -> bool:
         """Whether all channels, exposure and tone are the same."""
@@ -109,7 +114,7 @@ class Image:
 
 
 def _image_of(pixels: np.ndarray, depth: Optional[np.ndarray], normal: Optional[np.ndarray], object: Optional[np.ndarray],
-              error: Optional[np.ndarray], exposure: float, tone: str) -> Image:
+              error: Optional[np.ndarray], albedo: Optional[np.ndarray], exposure: float, tone: str) -> Image:
     """The image of its arrays, for pickle and copy."""
-    arrays = (None if array is None else np.ascontiguousarray(array) for array in (pixels, depth, normal, object, error))
+    arrays = (None if array is None else np.ascontiguousarray(array) for array in (pixels, depth, normal, object, error, albedo))
     return Image(_core.image_of(*arrays, exposure, tone))

@@ -37,8 +37,8 @@ Field aov_row() {
             throw Expected{"a list of " + aov_names() + did_you_mean(name, split_names(aov_names()))};
           set |= 1U << (found - all_aovs().begin());
         }
-        request.settings.aov = needs_centre_rays(set);
-        request.settings.estimate_error = needs_noise(set);
+        request.settings.aov = needs(set, AovSource::centre_ray);
+        request.settings.estimate_error = needs(set, AovSource::noise);
       },
       [](const Request& request) {
         std::string text;
