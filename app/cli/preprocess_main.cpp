@@ -55,9 +55,10 @@ bool parse(int argc, char** argv, Options& options) {
   list.add_switch(
       "--keep-dropped", options.keep_dropped,
       "with -o of points: those that the scene leaves out are written too, as class 7 (low noise)");
-  add_path(list, "--change-from", options.change_from,
-           "an earlier scan or scene: adds the attribute change, how far each point lies before (+) or "
-           "behind (-) its surface");
+  add_path(
+      list, "--change-from", options.change_from,
+      "an earlier scan or scene, or a mesh: adds the attribute change, how far each point lies before (+) or "
+      "behind (-) its surface");
   list.set_brief("--attributes", "further attributes to keep: extra bytes, columns");
   list.set_brief("--keep-withheld", "keep points marked as deleted or as noise");
   list.set_brief("--smooth", "how noise is smoothed; default as it asks for");

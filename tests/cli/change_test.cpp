@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "engine/base/error.h"
 #include "engine/scene/splat.h"
@@ -102,6 +103,19 @@ TEST(Change, IsNoNumberWhereTheOtherIsNot) {
   }
   EXPECT_GE(result.found.met, inside);
   EXPECT_LT(result.found.met, result.scene.data_pool.size() / 4);
+}
+
+TEST(Change, OfAMeshIsTheDistanceFromItsFaces) {
+  const std::string path = ::testing::TempDir() + "floor.obj";
+  std::ofstream(path) << "v 499999 4999999 10\nv 500001 4999999 10.5\nv 500001 5000001 10.5\nv 499999 "
+                         "5000001 10\nf 1 2 3 4\n";
+  BuildStats stats;
+  const Scene floor = build_scene(read_input({path}, {}), {}, 0, stats);
+  const Compared result =
+      compared(sheet(30, [](double x, double) { return 10.25 + 0.25 * x + 0.03; }), floor);
+  EXPECT_EQ(result.found.met, result.scene.data_pool.size());
+  for (std::size_t i = 0; i < result.scene.data_pool.size(); ++i)
+    ASSERT_NEAR(result.change(i), 0.03 / std::hypot(1.0, 0.25), 1e-4) << i;
 }
 
 TEST(Change, NoiseOfBothSaysWhatIsSignificant) {
