@@ -13,10 +13,11 @@ namespace {
 
 /// So few that each has some of the points, also of a scan by ten stations seen from one of them.
 constexpr int WIDTH = 32, HEIGHT = 24;
-constexpr double NEAR = 0.03;          ///< of the points' diagonal
-constexpr double PLANE_STEP = 0.03;    ///< of the same, between parallel planes that are told apart
-constexpr double NORMAL_STEPS = 4.0;   ///< of a normal's components from 0 to 1, that are told apart
-constexpr double CLOSED_BEHIND = 0.5;  ///< of a view from outside: a thing shows its front
+constexpr double NEAR = 0.03;         ///< of the points' diagonal
+constexpr double PLANE_STEP = 0.03;   ///< of the same, between parallel planes that are told apart
+constexpr double NORMAL_STEPS = 4.0;  ///< of a normal's components from 0 to 1, that are told apart
+/// A view from outside is closed from here on: 0.75 to 0.94 of flats, courtyards and half a room, 0.5 of a street.
+constexpr double CLOSED_BEHIND = 0.65;
 /// A doll's house opens from here on: one room had 0.89 with its sides right, 0.08 with these turned.
 constexpr double OPEN_BEHIND = 0.15;
 constexpr double DOLL_BACKGROUND = 0.9, INSIDE_BACKGROUND = 0.75, INSIDE_PLANE = 0.7, INSIDE_NEAR = 0.25;

@@ -39,7 +39,7 @@ struct CheckedView {
   double share = 0.0;
 };
 
-/// The check of one view of a scan. A view from outside, front or oblique, is closed where more than half of what it shows is seen from
+/// The check of one view of a scan. A view from outside, front or oblique, is closed where more than 65 % of what it shows is seen from
 /// behind and most of the points lie in upright or level planes: it looks at the backs of walls. A doll's house is closed where less
 /// than 15 % faces away from the camera, so that nothing is left out, and shows background where 90 % is empty. A view from inside is in a
 /// wall where a quarter is next to the camera, has one plane where that is more than 70 %, and background where more than 75 % is empty.

@@ -168,8 +168,12 @@ std::uint64_t make_dots(Cloud& cloud, const std::vector<std::uint32_t>& computed
     else if (!ends && !is_ellipse(cloud, i))
       large.push_back(i);
   }
+  const auto are_much = [&](const std::vector<std::uint32_t>& some) {
+    return area_of(cloud, some) + area_of(cloud, scattered) > SPARSE * discs.area;
+  };
+  if (!are_much(large)) return 0;  // without a search, as most scans end here
   const std::vector<std::uint32_t> bare = large.empty() ? large : find_bare(cloud, large, stage);
-  if (!(area_of(cloud, bare) + area_of(cloud, scattered) > SPARSE * discs.area)) return 0;
+  if (!are_much(bare)) return 0;
   for (const std::uint32_t i : bare) cloud.radius[i] = discs.usual;
   for (const std::uint32_t i : scattered) cloud.radius[i] = most;
   return bare.size() + scattered.size();
