@@ -266,6 +266,9 @@ struct FrameParams {
   uint region_dropped;  ///< planes on whose inner sides, all of them together, it meets none
   uint region_light;    ///< whether secondary rays, too, meet only what the region keeps
   uint loop_probe;      ///< LOOP_PROBE
+  /// A panorama's turns of longitude and half turns of latitude per pixel, its axes ahead, to the right and down being dir_00, dir_dx
+  /// and dir_dy; 0 where the rays are those of a plane.
+  vec4 panorama;
   /// Planes n.x >= w, n a unit vector, root space: those kept, then those dropped.
   vec4 region[REGION_PLANES_MOST + REGION_BOX_PLANES];
 };
@@ -441,7 +444,7 @@ SPLATRAY_CONST GROUP_SIZE = 64u;   ///< threads in a group; ORDER_Z: 8 x 8 pixel
 static_assert(sizeof(Material) == 144 && sizeof(Light) == 96 &&
               sizeof(LightNode) == 16 * LIGHT_NODE_TEXELS &&
               sizeof(RayQuery) == 64 && sizeof(RayHit) == 48 && sizeof(AovPixel) == 32 &&
-              sizeof(FrameParams) == 1440);
+              sizeof(FrameParams) == 1456);
 }  // namespace splatray
 #endif
 #endif

@@ -57,6 +57,24 @@ double json_number(const Json& object, const char* name, double most, const Sour
   return value;
 }
 
+/// One of the three.
+void read_projection(const Json& json, const Source& source, Camera& camera) {
+  std::string found;
+  for (const char* name : {"fov_y_deg", "ortho_height", "panorama"})
+    if (json.contains(name)) found += (found.empty() ? "" : " and ") + std::string(name);
+  if (found.empty() || found.find(' ') != std::string::npos)
+    source.refuse(found.empty() ? "no fov_y_deg, ortho_height or panorama" : found,
+                  "one of fov_y_deg, ortho_height and panorama");
+  if (json.contains("fov_y_deg")) {
+    camera.fov_y_deg = json_number(json, "fov_y_deg", 180.0, source);
+  } else if (json.contains("ortho_height")) {
+    camera.ortho_height = json_number(json, "ortho_height", 1e30, source);
+  } else {
+    if (json["panorama"] != true) source.refuse(found_member(json, "panorama"), "panorama true");
+    camera.panorama = true;
+  }
+}
+
 Camera camera_of(const Json& json, const Source& source) {
   if (!json.is_object() || json.contains("keys"))
     source.refuse(json.is_object() ? "a camera path" : "no camera",
@@ -65,14 +83,7 @@ Camera camera_of(const Json& json, const Source& source) {
   camera.eye = json_numbers<3>(json, "eye", source);
   camera.target = json_numbers<3>(json, "target", source);
   camera.up = json_numbers<3>(json, "up", source);
-  if (json.contains("fov_y_deg") == json.contains("ortho_height"))
-    source.refuse(
-        json.contains("fov_y_deg") ? "fov_y_deg and ortho_height" : "no fov_y_deg and no ortho_height",
-        "one of fov_y_deg and ortho_height");
-  if (json.contains("fov_y_deg"))
-    camera.fov_y_deg = json_number(json, "fov_y_deg", 180.0, source);
-  else
-    camera.ortho_height = json_number(json, "ortho_height", 1e30, source);
+  read_projection(json, source, camera);
   if (json.contains("lens_shift")) camera.lens_shift = json_numbers<2>(json, "lens_shift", source);
   if (json.contains("pixel_aspect"))
     camera.pixel_aspect = json_number(json, "pixel_aspect", MOST_PIXEL_ASPECT, source);
@@ -89,8 +100,10 @@ CameraKey read_key(const Json& json, const CameraPath& before, const Source& sou
                     "a whole number from " + number_text(least) + " to " + number_text(MOST_FRAME));
     key.frame = static_cast<std::uint32_t>(frame);
   }
-  if (!before.empty() && (key.camera.ortho_height > 0.0) != (before.back().camera.ortho_height > 0.0))
-    source.refuse("perspective and orthographic keys", "all of one kind");
+  if (before.empty()) return key;
+  const Camera &camera = key.camera, &last = before.back().camera;
+  if ((camera.ortho_height > 0.0) != (last.ortho_height > 0.0) || camera.panorama != last.panorama)
+    source.refuse("keys of several projections", "all of one kind");
   return key;
 }
 
@@ -104,7 +117,9 @@ Json to_json(const Camera& camera) {
   Json json = {{"eye", json_vector(camera.eye)},
                {"target", json_vector(camera.target)},
                {"up", json_vector(camera.up)}};
-  if (camera.ortho_height > 0.0)
+  if (camera.panorama)
+    json["panorama"] = true;
+  else if (camera.ortho_height > 0.0)
     json["ortho_height"] = camera.ortho_height;
   else
     json["fov_y_deg"] = camera.fov_y_deg;

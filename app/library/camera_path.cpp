@@ -39,7 +39,7 @@ Camera camera_at(const CameraPath& path, std::uint32_t frame) {
   return {interpolate(path, key, s, &Camera::eye),          interpolate(path, key, s, &Camera::target),
           interpolate(path, key, s, &Camera::up),           interpolate(path, key, s, &Camera::fov_y_deg),
           interpolate(path, key, s, &Camera::ortho_height), interpolate(path, key, s, &Camera::lens_shift),
-          interpolate(path, key, s, &Camera::pixel_aspect)};
+          interpolate(path, key, s, &Camera::pixel_aspect), next->camera.panorama};
 }
 
 Camera turned_camera(const Camera& camera, const glm::dvec3& up, double turns) {

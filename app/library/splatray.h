@@ -139,6 +139,9 @@ struct Camera {
   /// Where the point straight ahead lies, from the picture's middle to the right and down, in widths and heights of the picture.
   std::array<double, 2> lens_shift{0.0, 0.0};
   double pixel_aspect = 1.0;  ///< a pixel's width over its height, 0.01 to 100
+  /// All directions from the eye, equirectangular: longitude across with the target in the middle, latitude down. Pictures are then the
+  /// largest within the size asked for that are twice as wide as high, and what else says how wide it sees is ignored.
+  bool panorama = false;
 };
 /// The camera of a pose and intrinsics as OpenCV has them: `pose`, rows of a 4 x 4 matrix, takes camera coordinates (x right, y
 /// down, z ahead) to the world and is a rotation and a translation; `k`, rows of fx 0 cx, 0 fy cy, 0 0 1, is in pixels, the
@@ -303,10 +306,10 @@ struct SPLATRAY_API Image {
   std::vector<std::int32_t> object{};  ///< -1 on a miss; likewise
   /// Estimated error of the radiance, the root of the mean square of r, g, b; empty unless "aov" has error.
   std::vector<float> error{};
+  std::vector<Float3> albedo{};  ///< base colour, linear, 0 to 1; empty unless "aov" has albedo
   /// Brightness of what is no .exr, stops, and its tone curve, "neutral", "agx", "soft" or "none": as asked for, or what suits the
   /// picture.
   double exposure = 0.0;
-  std::vector<Float3> albedo{};  ///< base colour, linear, 0 to 1; empty unless "aov" has albedo
   std::string tone = "neutral";
   std::vector<Choice> choices{};  ///< view, colours, look, exposure, noise
 

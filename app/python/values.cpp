@@ -37,7 +37,8 @@ void add_camera(nb::module_& module) {
       .def_rw("fov", &api::Camera::fov_y_deg)
       .def_rw("ortho_height", &api::Camera::ortho_height)
       .def_rw("lens_shift", &api::Camera::lens_shift)
-      .def_rw("pixel_aspect", &api::Camera::pixel_aspect);
+      .def_rw("pixel_aspect", &api::Camera::pixel_aspect)
+      .def_rw("panorama", &api::Camera::panorama);
   module.def("camera_from_pose", api::camera_from_pose, nb::arg("pose"), nb::arg("k"), nb::arg("width"),
              nb::arg("height"));
 }

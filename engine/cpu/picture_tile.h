@@ -36,8 +36,9 @@ std::array<float, 4> tile_plane(const dvec3& normal, double begin, const dvec3& 
   return {x, y, z, static_cast<float>(begin - glm::dot(rounded, middle) + more)};
 }
 
-/// Sets what the pixels of a tile see; false where float32 cannot say it.
+/// Sets what the pixels of a tile see; false where float32 cannot say it, and of panoramas.
 bool set_tile_camera(uvec2 first_pixel, uvec2 pixels, WideTile& tile) {
+  if (frame.panorama.x > 0.0f) return false;  // its rays lie in no plane
   const glm::dvec2 half = 0.5 * glm::dvec2(pixels), at = glm::dvec2(first_pixel) + half;
   const dvec3 middle = dvec3(frame.origin_00) + dvec3(frame.origin_dx) * at.x + dvec3(frame.origin_dy) * at.y;
   const dvec3 dir = dvec3(frame.dir_00) + dvec3(frame.dir_dx) * at.x + dvec3(frame.dir_dy) * at.y;

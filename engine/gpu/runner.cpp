@@ -61,6 +61,8 @@ Dispatch Runner::picture_dispatch(const View& view, const Settings& settings) co
   Dispatch dispatch;
   dispatch.constants = picture_features(scene.content(), settings);
   dispatch.frame = scene.picture_params(view, settings);
+  const bool has_lens = dispatch.frame.lens_u != vec3(0.0F);  // orthographic pictures and panoramas have none
+  if (!has_lens) dispatch.constants[SPEC_FEATURES] &= ~FEATURE_LENS;
   if (settings.look != LOOK_PAPER) dispatch.program = Program::light;
   return dispatch;
 }

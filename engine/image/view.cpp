@@ -38,6 +38,11 @@ void check_view(const View& view) {
         "the camera's lens shift is not finite or beyond 100 pictures, expected two numbers such as 0.1,0");
   if (!(camera.pixel_aspect >= 1.0 / MOST_PIXEL_ASPECT && camera.pixel_aspect <= MOST_PIXEL_ASPECT))
     refuse("the camera's pixel aspect is outside 0.01 to 100, expected for example 1");
+  if (camera.panorama && view.width != 2 * std::uint64_t{view.height})
+    throw Error(ExitCode::usage,
+                "found a panorama of " + std::to_string(view.width) + "x" + std::to_string(view.height) +
+                    " pixels, expected one twice as wide as high, such as " +
+                    std::to_string(2 * std::uint64_t{view.height}) + "x" + std::to_string(view.height));
   if (camera.ortho_height == 0.0 && !(camera.fov_y_deg > 0.0 && camera.fov_y_deg < 180.0))
     refuse("the field of view is outside (0, 180) degrees, expected for example 40");
   const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
@@ -76,6 +81,15 @@ void set_far_rays(const ImagePlane& plane, double distance, FrameParams& frame) 
   frame.t_min = -std::numeric_limits<float>::infinity();
 }
 
+/// Rays from the eye in all directions.
+void set_panorama_rays(const ImagePlane& plane, const View& view, FrameParams& frame) {
+  frame.origin_00 = plane.eye;
+  frame.dir_00 = plane.forward;
+  frame.dir_dx = glm::normalize(plane.dx);
+  frame.dir_dy = glm::normalize(plane.dy);
+  frame.panorama = vec4(1.0 / view.width, 1.0 / view.height, 0.0, 0.0);
+}
+
 void set_rays(const Scene& scene, const View& view, FrameParams& frame) {
   const ImagePlane plane = image_plane(scene.root, view);
   const glm::dvec3 center(0.5 * ROOT_EDGE);
@@ -83,14 +97,20 @@ void set_rays(const Scene& scene, const View& view, FrameParams& frame) {
   const double extent = glm::length(plane.corner) * std::max(1.0, std::abs(distance));
   if (!(glm::length(center - plane.eye) < MAX_DISTANCE_ROOT) || !(extent < MAX_DISTANCE_ROOT))
     refuse("the camera is too far away or too wide, expected within 1e11 sizes of the scene");
+  if (view.camera.panorama) {
+    if (glm::length(center - plane.eye) > FAR_EDGES * ROOT_EDGE)
+      refuse(
+          "the panorama's eye is far outside the scene, expected a place in it or within four of its sizes");
+    return set_panorama_rays(plane, view, frame);
+  }
   if (view.camera.ortho_height > 0.0) return set_orthographic_rays(plane, distance, frame);
   if (distance > FAR_EDGES * ROOT_EDGE) return set_far_rays(plane, distance, frame);
   set_near_rays(plane, frame);
 }
 
-/// Orthographic cameras have no lens.
+/// Orthographic cameras and panoramas have no lens.
 void set_lens(const Scene& scene, const Camera& camera, const Settings& settings, FrameParams& frame) {
-  if (!(settings.lens_radius_world > 0.0) || camera.ortho_height > 0.0) return;
+  if (!(settings.lens_radius_world > 0.0) || camera.ortho_height > 0.0 || camera.panorama) return;
   const glm::dvec3 to_target = camera.target - camera.eye, forward = glm::normalize(to_target);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
   const double radius = settings.lens_radius_world / scene.root.unit_world;
@@ -102,11 +122,23 @@ void set_lens(const Scene& scene, const Camera& camera, const Settings& settings
 
 }  // namespace
 
+namespace {
+
+/// Pixels of a panorama as angles.
+ImagePlane panorama_plane(const RootTransform& root, const View& view, const glm::dvec3& right) {
+  const glm::dvec3 up = glm::normalize(view.camera.up);
+  return {root.to_root(view.camera.eye), glm::cross(up, right), glm::dvec3(0.0),
+          right * (2.0 * std::numbers::pi / view.width), -up * (std::numbers::pi / view.height)};
+}
+
+}  // namespace
+
 ImagePlane image_plane(const RootTransform& root, const View& view) {
   const Camera& camera = view.camera;
   const bool ortho = camera.ortho_height > 0.0;
   const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
+  if (camera.panorama) return panorama_plane(root, view, right);
   const glm::dvec3 down = glm::cross(forward, right);
   const double height = ortho ? camera.ortho_height / root.unit_world
                               : 2.0 * std::tan(camera.fov_y_deg * std::numbers::pi / 360.0);
@@ -154,8 +186,9 @@ FrameParams make_frame_params(const Scene& scene, const View& view, const Settin
   set_region(scene.root, settings.region, frame);
   set_lens(scene, view.camera, settings, frame);
   const ImagePlane plane = image_plane(scene.root, view);
-  frame.cut_eye =
-      view.camera.ortho_height > 0.0 ? plane.eye - PARALLEL_EDGES * ROOT_EDGE * plane.forward : plane.eye;
+  frame.cut_eye = frame.panorama.x == 0.0F && view.camera.ortho_height > 0.0
+                      ? plane.eye - PARALLEL_EDGES * ROOT_EDGE * plane.forward
+                      : plane.eye;
   const double reach =
       settings.reach_world > 0.0 ? settings.reach_world : REACH_SHARE * scene.diagonal_world();
   frame.reach = static_cast<float>(reach / scene.root.unit_world);

@@ -38,7 +38,8 @@ inline constexpr double REACH_SHARE = 0.1;
 inline constexpr double MOST_LENS_SHIFT = 100.0, MOST_PIXEL_ASPECT = 100.0;
 
 /// The image plane in root space, float64: position of (px, py) = corner + px * dx + py * dy, relative to the
-/// eye, for a plane at unit distance (perspective) or through the eye (orthographic). dx and dy, per pixel, are perpendicular.
+/// eye, for a plane at unit distance (perspective) or through the eye (orthographic). dx and dy, per pixel, are perpendicular. Of a
+/// panorama, which has no such plane, dx and dy are radians per pixel at its middle, and `forward` is across Camera::up.
 struct ImagePlane {
   glm::dvec3 eye, forward, corner, dx, dy;
 };
@@ -163,7 +164,8 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 /// Everything a frame needs of View, Settings and Scene, in root space, computed in float64. Tile and sample
 /// range cover the whole picture; `environment` and `irradiance` are left zero (the tracer fills them from
 /// its Environment). Throws Error (usage) for a camera that sees nothing: eye == target, up parallel to the
-/// view, non-finite values, fov outside (0, 180), a lens shift or pixel aspect beyond the above, zero sizes.
+/// view, non-finite values, fov outside (0, 180), a lens shift or pixel aspect beyond the above, zero sizes; for a panorama that is not
+/// twice as wide as high, or farther than four sizes of the scene from its middle.
 [[nodiscard]] FrameParams make_frame_params(const Scene& scene, const View& view, const Settings& settings);
 
 /// FrameParams::media and absorption of these materials.

@@ -14,6 +14,10 @@ struct Camera {
   /// Where the point straight ahead lies, from the picture's middle to the right and down, in widths and heights of the picture.
   glm::dvec2 lens_shift{0.0};
   double pixel_aspect = 1.0;  ///< a pixel's width over its height, > 0
+  /// All directions around the eye (equirectangular): columns are longitudes about `up`, the target's in the middle and the right of it
+  /// to its right, rows are latitudes, `up` at the top. A picture is twice as wide as high. Field of view, orthographic height, lens
+  /// shift and pixel aspect are ignored.
+  bool panorama = false;
   bool operator==(const Camera&) const = default;
 };
 

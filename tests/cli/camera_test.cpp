@@ -37,6 +37,7 @@ void expect_equal(const Camera& a, const Camera& b) {
   EXPECT_EQ(a.ortho_height, b.ortho_height);
   EXPECT_EQ(a.lens_shift, b.lens_shift);
   EXPECT_EQ(a.pixel_aspect, b.pixel_aspect);
+  EXPECT_EQ(a.panorama, b.panorama);
 }
 
 TEST(CameraFile, ComesBackBitForBit) {
@@ -47,6 +48,10 @@ TEST(CameraFile, ComesBackBitForBit) {
     write_camera(camera, path);
     expect_equal(read_camera(path), camera);
   }
+  Camera panorama{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  panorama.panorama = true;
+  write_camera(panorama, path);
+  expect_equal(read_camera(path), panorama);
   const CameraPath keys = {{random_camera(dice, false), 3}, {random_camera(dice, false), 90}};
   write_camera_path(keys, path);
   const CameraPath copy = read_camera_path(path);
@@ -78,6 +83,9 @@ TEST(CameraFile, RefusesWithASentence) {
   EXPECT_NE(camera("{" + vectors + "}").find("no fov_y_deg"), std::string::npos);
   EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": 30, "ortho_height": 1})").find("one of"),
             std::string::npos);
+  EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": 30, "panorama": true})").find("fov_y_deg and panorama"),
+            std::string::npos);
+  EXPECT_NE(camera("{" + vectors + R"(, "panorama": false})").find("panorama false"), std::string::npos);
   EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": 180})").find("fov_y_deg 180"), std::string::npos);
   EXPECT_NE(camera("{" + vectors + R"(, "fov_y_deg": "wide"})").find("wide"), std::string::npos);
   EXPECT_NE(camera("{" + vectors + R"(, "ortho_height": 0})").find("ortho_height 0"), std::string::npos);

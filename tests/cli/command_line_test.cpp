@@ -131,6 +131,8 @@ Request random_picture(Dice& dice) {
   maybe(dice, request.look.up, vector(dice));
   request.view.viewpoint = static_cast<Viewpoint>(dice.below(5));
   maybe(dice, request.view.fov_y_deg, number(dice, 0.01, 179.0));
+  request.view.panorama =
+      request.view.eye && !request.view.fov_y_deg && request.view.ortho_height == 0.0 && dice.chance(0.5);
   if (dice.chance(0.7)) request.look.lights.emplace();
   for (std::uint32_t i = request.look.lights ? dice.below(4) : 0; i > 0; --i)
     request.look.lights->push_back(random_light(dice));

@@ -78,6 +78,15 @@ TEST(LevelCut, WhatNoPictureSeesIsCoarser) {
   EXPECT_EQ(cut(levels, mirrored).size(), cut(levels, {{from_above(500.0, 1024.0)}, 2.0}).size());
 }
 
+TEST(LevelCut, PanoramasSeeAllAround) {
+  const Levels levels = ground(7, 100);
+  View view = from_above(20.0);
+  view.camera.panorama = true;
+  LevelCut all{{view}, 2.0};
+  all.unseen_factor = 1.0;
+  EXPECT_EQ(cut(levels, {{view}, 2.0}), cut(levels, all));
+}
+
 /// Each node taken has its parent; finer spacings, more pictures and more points take more.
 TEST(LevelCut, CutsAreNested) {
   const Levels levels = ground(8, 50);

@@ -106,6 +106,33 @@ TEST(ImageFile, ExrKeepsLinearValuesAndIsAnEnvironment) {
   for (std::size_t i = 0; i < copy.texels.size(); ++i) EXPECT_EQ(copy.texels[i], vec3(image.rgba[i]));
 }
 
+TEST(ImageFile, ExrHasTheAlbedo) {
+  Image image = gradient();
+  image.albedo.assign(image.rgba.size(), vec4(0.25F, 0.5F, 0.75F, 1.0F));
+  EXPECT_TRUE(needs(aovs_of(image), AovSource::albedo));
+  EXPECT_FALSE(needs(aovs_of(gradient()), AovSource::albedo));
+  const std::string path = temporary("albedo.exr");
+  write_exr(image, aovs_of(image), {}, path);
+  const ExrPicture copy = read_exr(path);
+  const auto green = std::find(copy.channels.begin(), copy.channels.end(), "albedo.G");
+  ASSERT_NE(green, copy.channels.end());
+  for (std::size_t pixel = 0; pixel < image.rgba.size(); ++pixel)
+    EXPECT_EQ(copy.values[pixel * copy.channels.size() + std::size_t(green - copy.channels.begin())], 0.5F);
+}
+
+TEST(ImageFile, APngSaysThatItIsAPanorama) {
+  const DisplayImage wide{4, 2, std::vector<vec3>(8)}, high{4, 3, std::vector<vec3>(12)};
+  const auto said = [](const DisplayImage& image, const Metadata& metadata) {
+    const std::vector<unsigned char> bytes = encode_png(image, metadata);
+    const std::string text(bytes.begin(), bytes.end());
+    return text.find("GPano:ProjectionType=\"equirectangular\"") != std::string::npos &&
+           text.find("GPano:FullPanoWidthPixels=\"4\"") != std::string::npos;
+  };
+  EXPECT_TRUE(said(wide, {{"projection", "equirectangular"}}));
+  EXPECT_FALSE(said(high, {{"projection", "equirectangular"}})) << "a part";
+  EXPECT_FALSE(said(wide, {{"fov_y_deg", "30"}}));
+}
+
 TEST(ImageFile, AnEnvironmentsNonsenseIsCountedAndTakenAsDarkOrBright) {
   Image image = gradient();
   image.rgba[0].x = -1.0F;

@@ -189,6 +189,19 @@ TEST(FrameParams, RefusesCamerasThatSeeNothing) {
   EXPECT_TRUE(refused([](View& v) { v.camera.fov_y_deg = 0.0; }));
   EXPECT_TRUE(refused([](View& v) { v.camera.ortho_height = -1.0; }));
   EXPECT_TRUE(refused([](View& v) { v.width = 0; }));
+  const auto panorama = [](View& v) {
+    v.camera.panorama = true;
+    v.width = 2 * v.height;
+  };
+  EXPECT_FALSE(refused(panorama));
+  EXPECT_TRUE(refused([&](View& v) {
+    panorama(v);
+    v.width += 2;
+  }));
+  EXPECT_TRUE(refused([&](View& v) {
+    panorama(v);
+    v.camera.eye = glm::dvec3(1e4);
+  }));
 }
 
 }  // namespace

@@ -134,6 +134,28 @@ TEST(LightMaths, PrimaryRaysAreThoseOfTheImagePlane) {
   }
 }
 
+/// Longitude grows to the right about `up`, with the target's in the middle; the first row's top is straight up.
+TEST(LightMaths, PrimaryRaysOfAPanoramaAreLongitudeAndLatitude) {
+  Scene scene;
+  scene.root.unit_world = 1e-6;
+  scene.bounds_max_world = glm::dvec3(2.0);
+  const glm::dvec3 eye(0.3, 0.4, 0.5), ahead = glm::normalize(glm::dvec3(3.0, 0.0, 4.0)), up(0.0, 1.0, 0.0);
+  Camera camera{eye, eye + ahead + 0.7 * up, 2.0 * up};
+  camera.panorama = true;
+  const View view{camera, 4096, 2048};
+  const FrameParams frame = make_frame_params(scene, view, {});
+  for (double y = 0.25; y < view.height; y += 31.7)
+    for (double x = 0.25; x < view.width; x += 63.3) {
+      const double longitude = 2.0 * std::numbers::pi * (double(float(x)) / view.width - 0.5);
+      const double latitude = std::numbers::pi * (0.5 - double(float(y)) / view.height);
+      const glm::dvec3 level = std::cos(longitude) * ahead + std::sin(longitude) * glm::cross(ahead, up);
+      const glm::dvec3 dir = std::cos(latitude) * level + std::sin(latitude) * up;
+      const TwinRay ray = twin_primary_ray(frame, float(x), float(y));
+      ASSERT_LT(glm::length(glm::dvec3(ray.dir) - dir), 5e-7) << x << ", " << y;
+      ASSERT_LT(glm::length(scene.root.to_world(glm::dvec3(ray.origin)) - eye), 2e-6);
+    }
+}
+
 TEST(LightMaths, PixelSamplesAreTheR2Sequence) {
   constexpr double PLASTIC = 1.32471795724474602596;  // x^3 = x + 1
   EXPECT_EQ(twin_pixel_sample(0), vec2(0.5F));

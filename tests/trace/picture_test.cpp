@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <numbers>
 
 #include "app/library/image_file.h"
 #include "app/library/picture/compare.h"
@@ -220,6 +221,53 @@ TEST(Picture, TheHostMakesThatOfTheDevice) {
       EXPECT_EQ(made.image.aov[i].object, expected.image.aov[i].object);
     }
   }
+}
+
+/// From within a ball a panorama's depths are those of its rays with the ball, on either device.
+TEST(Picture, APanoramaWithinABallHasItsDepths) {
+  constexpr std::uint32_t WIDTH = 96, HEIGHT = 48;
+  Material two_sided = test_material(MATERIAL_TWO_SIDED);
+  const Scene scene = scene_of({{sphere({.count = 20000}, 1.0), two_sided}});
+  for (const glm::dvec3 eye : {glm::dvec3(0.0), glm::dvec3(0.3, -0.5, 0.2)}) {
+    Camera camera{eye, eye + glm::dvec3(0.0, 0.3, -1.0), {0.0, 1.0, 0.0}};
+    camera.panorama = true;
+    const View view{camera, WIDTH, HEIGHT};
+    Settings settings = small_settings();
+    settings.aov = true;
+    const Image device = made_on(VulkanDevice(), scene, view, settings, studio_environment()).image;
+    const Image host = made_on(HostDevice(), scene, view, settings, studio_environment()).image;
+    EXPECT_TRUE(compare_pictures(host, device, {0.004, 0.0005, 0.05}, "panorama").passed);
+    for (std::uint32_t y = 0; y < HEIGHT; ++y)
+      for (std::uint32_t x = 0; x < WIDTH; ++x) {
+        const double longitude = 2.0 * std::numbers::pi * ((x + 0.5) / WIDTH - 0.5);
+        const double latitude = std::numbers::pi * (0.5 - (y + 0.5) / HEIGHT);
+        const glm::dvec3 dir(std::cos(latitude) * std::sin(longitude), std::sin(latitude),
+                             -std::cos(latitude) * std::cos(longitude));
+        const double along = glm::dot(eye, dir);
+        const double depth = std::sqrt(along * along + 1.0 - glm::dot(eye, eye)) - along;
+        const std::size_t i = std::size_t{y} * WIDTH + x;
+        ASSERT_NEAR(host.aov[i].z, depth, 0.002) << x << ", " << y;
+        ASSERT_NEAR(host.aov[i].z, device.aov[i].z, 1e-5);
+        ASSERT_EQ(host.aov[i].splat, device.aov[i].splat);
+      }
+  }
+}
+
+TEST(Picture, NoLensWithoutPerspective) {
+  const Scene scene = ball_on_mirror();
+  View view{default_camera(scene, 2.0), 48, 24};
+  Settings sharp = small_settings(), with_lens = sharp;
+  sharp.look = with_lens.look = LOOK_LIT;
+  with_lens.lens_radius_world = 0.1;
+  const auto picture = [&](const Settings& settings) {
+    return made_on(HostDevice(), scene, view, settings, studio_environment()).image.rgba;
+  };
+  EXPECT_NE(picture(with_lens), picture(sharp));
+  view.camera.ortho_height = 3.0;
+  EXPECT_EQ(picture(with_lens), picture(sharp));
+  view.camera.ortho_height = 0.0;
+  view.camera.panorama = true;
+  EXPECT_EQ(picture(with_lens), picture(sharp));
 }
 
 TEST(Picture, AMovedSplatIsNoticed) {

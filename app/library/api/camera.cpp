@@ -89,9 +89,9 @@ Camera frame(const Scene& scene, const Framing& framing) {
   return guarded([&] {
     check(framing);
     const splatray::Camera camera = framed(SceneAccess::impl(scene)->loaded, framing);
-    return Camera{array(camera.eye),  array(camera.target), array(camera.up),
-                  camera.fov_y_deg,   camera.ortho_height,  {camera.lens_shift.x, camera.lens_shift.y},
-                  camera.pixel_aspect};
+    return Camera{array(camera.eye),   array(camera.target), array(camera.up),
+                  camera.fov_y_deg,    camera.ortho_height,  {camera.lens_shift.x, camera.lens_shift.y},
+                  camera.pixel_aspect, camera.panorama};
   });
 }
 

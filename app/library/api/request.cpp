@@ -110,7 +110,8 @@ Request& Request::set_camera(const Camera& camera) {
                                              camera.fov_y_deg,
                                              camera.ortho_height,
                                              {camera.lens_shift[0], camera.lens_shift[1]},
-                                             camera.pixel_aspect});
+                                             camera.pixel_aspect,
+                                             camera.panorama});
   return *this;
 }
 

@@ -140,6 +140,22 @@ void append_pixel_size(double dots_per_inch, Bytes& bytes) {
   append_chunk("pHYs", chunk, bytes);
 }
 
+/// That the picture is a whole panorama, for viewers of such (Google, "Photo Sphere XMP Metadata").
+void append_panorama(const PictureHeader& header, Bytes& bytes) {
+  const std::string width = std::to_string(header.width), height = std::to_string(header.height);
+  std::string text("XML:com.adobe.xmp\0\0\0\0\0", 22);
+  text +=
+      "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
+      "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
+      "<rdf:Description rdf:about=\"\" xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\""
+      " GPano:UsePanoramaViewer=\"True\" GPano:ProjectionType=\"equirectangular\""
+      " GPano:FullPanoWidthPixels=\"" +
+      width + "\" GPano:FullPanoHeightPixels=\"" + height + "\" GPano:CroppedAreaImageWidthPixels=\"" +
+      width + "\" GPano:CroppedAreaImageHeightPixels=\"" + height +
+      "\" GPano:CroppedAreaLeftPixels=\"0\" GPano:CroppedAreaTopPixels=\"0\"/></rdf:RDF></x:xmpmeta>";
+  append_chunk("iTXt", text.data(), text.size(), bytes);
+}
+
 }  // namespace
 
 std::vector<unsigned char> encode_png(const PictureHeader& header, const unsigned char* values) {
@@ -151,6 +167,8 @@ std::vector<unsigned char> encode_png(const PictureHeader& header, const unsigne
     if (!name.starts_with("splatray.")) continue;
     const std::string text = name + '\0' + value;
     append_chunk("tEXt", text.data(), text.size(), bytes);
+    const bool whole = header.width == 2 * header.height;  // a part has another shape
+    if (whole && name == "splatray.projection" && value == "equirectangular") append_panorama(header, bytes);
   }
   const Bytes pixels = compressed(filtered_rows(header, values));
   for (std::size_t at = 0; at < pixels.size(); at += CHUNK_BYTES)

@@ -8,7 +8,7 @@ namespace splatray {
 
 /// A whole PNG in memory. `values`: rows from the top, a byte a channel, of 3 or 4 channels. Beside the pixels it says that its
 /// colours are sRGB, how large its pixels are on paper unless `dots_per_inch` is 0, and, in text chunks, the attributes whose names
-/// begin with "splatray.". Throws std::bad_alloc.
+/// begin with "splatray."; where one is splatray.projection, equirectangular, of a whole picture, that it is a panorama. Throws std::bad_alloc.
 [[nodiscard]] std::vector<unsigned char> encode_png(const PictureHeader& header, const unsigned char* values);
 
 }  // namespace splatray

@@ -83,11 +83,11 @@ void require_outputs_writable(const Request& request) {
 std::optional<DisplayImage> read_reference(const Request& request) {
   if (request.output.reference.empty()) return {};
   DisplayImage reference = read_display_image(request.output.reference, display_of(request));
-  if (reference.width != request.view.width || reference.height != request.view.height)
+  const glm::uvec2 size = picture_size(request.view);
+  if (reference.width != size.x || reference.height != size.y)
     throw Error(ExitCode::failed, "reference '" + request.output.reference.string() + "' is " +
                                       size_text(reference.width, reference.height) +
-                                      ", expected the picture's " +
-                                      size_text(request.view.width, request.view.height));
+                                      ", expected the picture's " + size_text(size.x, size.y));
   return reference;
 }
 
@@ -101,19 +101,21 @@ std::string joined_devices(const std::string& devices, const std::string& more) 
 
 Metadata picture_metadata(const Shot& shot, const Scene& scene, const Camera& camera,
                           const std::string& devices) {
-  const bool ortho = camera.ortho_height > 0.0;
-  Metadata metadata = {
-      {"command_line", command_line(still_request(shot, camera))},
-      {"eye", number_text(camera.eye)},
-      {"target", number_text(camera.target)},
-      {"up", number_text(camera.up)},
-      {ortho ? "ortho_height" : "fov_y_deg", number_text(ortho ? camera.ortho_height : camera.fov_y_deg)},
-      {"diagonal_world", number_text(scene.diagonal_world())},
-      {"device", devices},
-      {"samples", std::to_string(shot.settings.samples)},
-      {"seed", std::to_string(shot.settings.seed)},
-      {"commit", COMMIT},
-      {"choices", choices_of(shot)}};
+  const std::pair<std::string, std::string> projection =
+      camera.panorama             ? std::pair("projection", "equirectangular")
+      : camera.ortho_height > 0.0 ? std::pair("ortho_height", number_text(camera.ortho_height))
+                                  : std::pair("fov_y_deg", number_text(camera.fov_y_deg));
+  Metadata metadata = {{"command_line", command_line(still_request(shot, camera))},
+                       {"eye", number_text(camera.eye)},
+                       {"target", number_text(camera.target)},
+                       {"up", number_text(camera.up)},
+                       projection,
+                       {"diagonal_world", number_text(scene.diagonal_world())},
+                       {"device", devices},
+                       {"samples", std::to_string(shot.settings.samples)},
+                       {"seed", std::to_string(shot.settings.seed)},
+                       {"commit", COMMIT},
+                       {"choices", choices_of(shot)}};
   if (!shot.lod_error.empty()) metadata.emplace_back("lod_error", shot.lod_error);
   return metadata;
 }

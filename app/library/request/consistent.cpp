@@ -40,7 +40,11 @@ const std::vector<Exclusion>& exclusions() {
       {{"xray"}, {"ink"}},
       {LENS, {"camera-path"}, ", as the path has its cameras"},
       {LENS, {"sheet"}, ", as a sheet has its camera"},
-      {{"ortho-height"}, {"sheet"}, ", as a sheet has its camera"},
+      {{"ortho-height", "panorama"}, {"sheet"}, ", as a sheet has its camera"},
+      {{"panorama"}, {"camera-path"}, ", as the path has its cameras"},
+      {{"panorama"},
+       {"ortho-height", "fov", "lens-shift", "pixel-aspect", "aperture", "orbit"},
+       ", as a panorama shows all directions from one place"},
       {{"resolution"}, {"sheet"}, ", as scale= and dpi= in the sheet make its size"},
       {SEQUENCES, {"sheet", "resume", "reference"}, ", as these are of a single picture"},
       {GOALS, PARTS, ", as parts of a picture have the same --samples"},
@@ -172,7 +176,8 @@ void require_consistent(const Request& request) {
   check_size(request);
   check_noise(request);
   check_sample_range(request);
-  if (!request.view.sheet) require_part_of(request.view, request.view.width, request.view.height);
+  const glm::uvec2 size = picture_size(request.view);
+  if (!request.view.sheet) require_part_of(request.view, size.x, size.y);
 }
 
 }  // namespace splatray

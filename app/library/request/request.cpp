@@ -13,6 +13,12 @@ namespace {
 
 }  // namespace
 
+glm::uvec2 picture_size(const Request::View& view) {
+  if (!view.panorama) return {view.width, view.height};
+  const std::uint32_t height = std::max(1U, std::min(view.width / 2, view.height));
+  return {2 * height, height};
+}
+
 PixelWindow window_of(const Request::View& view, std::uint32_t width, std::uint32_t height) {
   if (view.tiles == 0) return view.crop;
   const auto row = [&](std::uint32_t part) {
@@ -22,7 +28,8 @@ PixelWindow window_of(const Request::View& view, std::uint32_t width, std::uint3
 }
 
 PixelWindow made_pixels(const Request::View& view) {
-  return View{{}, view.width, view.height, window_of(view, view.width, view.height)}.made();
+  const glm::uvec2 size = picture_size(view);
+  return View{{}, size.x, size.y, window_of(view, size.x, size.y)}.made();
 }
 
 bool asks_for_materials(const Request::Look& look) {
@@ -33,11 +40,13 @@ void set_camera(Request::View& view, const Camera& camera) {
   view.eye = camera.eye;
   view.target = camera.target;
   view.camera_up = camera.up;
+  view.panorama = camera.panorama;
+  const Camera lens = camera.panorama ? Camera{} : camera;
   view.fov_y_deg.reset();
-  if (camera.ortho_height == 0.0) view.fov_y_deg = camera.fov_y_deg;
-  view.ortho_height = camera.ortho_height;
-  view.lens_shift = camera.lens_shift;
-  view.pixel_aspect = camera.pixel_aspect;
+  if (!camera.panorama && lens.ortho_height == 0.0) view.fov_y_deg = lens.fov_y_deg;
+  view.ortho_height = lens.ortho_height;
+  view.lens_shift = lens.lens_shift;
+  view.pixel_aspect = lens.pixel_aspect;
 }
 
 Region region_of(const RegionRequest& asked, const glm::dvec3& up) {

@@ -76,6 +76,7 @@ struct Request {
     std::optional<SheetRequest> sheet;
     bool ink = false, xray = false;     ///< of a sheet
     double ortho_height = 0.0;          ///< world units; 0 = perspective
+    bool panorama = false;              ///< Camera::panorama, of pictures that are written
     glm::dvec2 lens_shift{0.0};         ///< Camera::lens_shift
     double pixel_aspect = 1.0;          ///< Camera::pixel_aspect
     double aperture_world = 0.0;        ///< diameter of the lens
@@ -140,6 +141,9 @@ struct Request {
 
   bool operator==(const Request&) const = default;
 };
+
+/// Width and height of the picture, pixels: as asked for, of a panorama the largest within that which is twice as wide as high.
+[[nodiscard]] glm::uvec2 picture_size(const Request::View& view);
 
 /// What of a picture of this size is made: the crop's or the tile's window; without pixels: all.
 [[nodiscard]] PixelWindow window_of(const Request::View& view, std::uint32_t width, std::uint32_t height);

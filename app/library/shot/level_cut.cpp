@@ -22,7 +22,9 @@ Box box_of(const Levels& levels, const LevelNode& node, double z_scale) {
 class PixelsOfView {
  public:
   explicit PixelsOfView(const View& view)
-      : plane_(image_plane(RootTransform{}, view)), is_ortho_(view.camera.ortho_height > 0.0) {
+      : plane_(image_plane(RootTransform{}, view)),
+        is_ortho_(view.camera.ortho_height > 0.0),
+        sees_all_(view.camera.panorama) {
     const PixelWindow made = view.made();
     const glm::dvec3 corner = plane_.corner + double(made.x) * plane_.dx + double(made.y) * plane_.dy;
     const glm::dvec3 across = double(made.width) * plane_.dx, down = double(made.height) * plane_.dy;
@@ -41,11 +43,11 @@ class PixelsOfView {
   }
 
   [[nodiscard]] bool sees(const Box& box) const {
-    return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
-      const glm::dvec3 furthest =
-          glm::mix(box.low, box.high, glm::greaterThan(side.inwards, glm::dvec3(0.0)));
-      return glm::dot(side.inwards, furthest - side.at) >= 0.0;
-    });
+    return sees_all_ || std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+             const glm::dvec3 furthest =
+                 glm::mix(box.low, box.high, glm::greaterThan(side.inwards, glm::dvec3(0.0)));
+             return glm::dot(side.inwards, furthest - side.at) >= 0.0;
+           });
   }
 
   /// The edge of a pixel, world units, at the box's nearest point; 0 around the eye.
@@ -59,7 +61,7 @@ class PixelsOfView {
     glm::dvec3 at{0.0}, inwards{0.0};
   };
   ImagePlane plane_;
-  bool is_ortho_;
+  bool is_ortho_, sees_all_;
   std::array<Side, 4> sides_;
 };
 

@@ -256,6 +256,8 @@ Camera resolve_camera(const Scene& scene, const Request& request, double aspect)
   Camera camera = placed_camera(scene, request, request.view.pixel_aspect * aspect);
   camera.lens_shift = request.view.lens_shift;
   camera.pixel_aspect = request.view.pixel_aspect;
+  camera.panorama = request.view.panorama;
+  if (camera.panorama) camera.ortho_height = 0.0;
   return camera;
 }
 
@@ -275,7 +277,8 @@ Shot draft(const Request& asked) {
   Shot shot;
   shot.request = asked;
   shot.settings = asked.settings;
-  set_pixels(asked.view.width, asked.view.height, shot);
+  const glm::uvec2 size = picture_size(asked.view);
+  set_pixels(size.x, size.y, shot);
   Plan plan = plan_pictures(asked);
   shot.frames = std::move(plan.frames);
   if (asked.output.many()) shot.output = std::move(plan.sequence);

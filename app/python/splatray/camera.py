@@ -20,7 +20,9 @@ class Camera:
     eye, target: where it is and what it looks at. up: direction towards the picture's top, not parallel to the view. fov: vertical
     field of view, degrees, between 0 and 180. ortho_height: above 0 for an orthographic picture of this height in world units.
     lens_shift: where the point straight ahead lies, from the picture's middle to the right and down, in widths and heights of the
-    picture. pixel_aspect: a pixel's width over its height, 0.01 to 100. Arrays become tuples of floats.
+    picture. pixel_aspect: a pixel's width over its height, 0.01 to 100. panorama: all directions from the eye, equirectangular, with the
+    target in the middle; pictures are then the largest within the size asked for that are twice as wide as high. Arrays become tuples
+    of floats.
     """
 
     eye: Vector
@@ -30,6 +32,7 @@ class Camera:
     ortho_height: float = 0.0
     lens_shift: Tuple[float, float] = (0.0, 0.0)
     pixel_aspect: float = 1.0
+    panorama: bool = False
 
     def __post_init__(self) -> None:
         for name in ("eye", "target", "up"):

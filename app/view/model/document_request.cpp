@@ -45,6 +45,7 @@ Document shown_in(const Scene& scene, const Document& document, const Shot& shot
   Document shown = document;
   shown.request = shown_request(scene, document.loaded->asked, shot);
   shown.camera = shot.view.camera;
+  shown.camera.panorama = false;  // windows look ahead; what is written may be one
   shown.materials = document.loaded->materials;
   apply_object_changes(look.objects, scene.object_names, shown.materials);
   shown.bounds_min_world = scene.bounds_min_world;
@@ -85,6 +86,12 @@ Request saved_request(const Document& document, const Request& asked) {
     const Request::Look& first = document.loaded->first.look;
     if (!document.loaded->asked.look.lights && saved.look.lights == first.lights && saved.look.up == first.up)
       saved.look.lights.reset();
+  }
+  if (asked.view.panorama) {
+    Camera around = document.camera;
+    around.panorama = true;
+    set_camera(saved.view, around);
+    saved.view.aperture_world = 0.0;
   }
   saved.view.crop = asked.view.crop;
   saved.view.tile = asked.view.tile;

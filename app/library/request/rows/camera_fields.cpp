@@ -38,6 +38,7 @@ Field camera_path_row() {
         request.view.ortho_height = 0.0;
         request.view.lens_shift = glm::dvec2(0.0);
         request.view.pixel_aspect = 1.0;
+        request.view.panorama = false;
       },
       [](const Request& request) { return request.output.camera_path.string(); });
 }
@@ -46,7 +47,7 @@ Field camera_row() {
   return with(
       value_row(
           "camera", CAMERA, "FILE",
-          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height, maybe lens_shift and "
+          "camera file (JSON: eye, target, up, fov_y_deg or ortho_height or panorama, maybe lens_shift and "
           "pixel_aspect); options beside it replace parts",
           [](Request& request, const std::string& file) { set_camera(request.view, read_camera(file)); }, {}),
       {.doors = DOOR_RENDER | DOOR_VIEW,
@@ -151,34 +152,40 @@ Field tile_row() {
 }  // namespace
 
 std::vector<Field> camera_fields() {
-  return {needed(resolution_row(), "size of the picture in pixels, such as 1920x1080")
-              .marked(OF_FILES | HAS_OWN_CONTROL),
-          camera_path_row().marked(OF_FILES | HAS_OWN_CONTROL),
-          camera_row(),
-          needed(view_row(), "front, oblique, top, inside, dollhouse or sensor"),
-          vector_row("eye", CAMERA, MEMBER(view.eye),
-                     "camera position; default: the scene's camera, else a view of the whole scene"),
-          vector_row("target", CAMERA, MEMBER(view.target),
-                     "point looked at; default the scene's centre; needs --eye"),
-          up_row().marked(OF_SCENES),
-          vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
-                     "up direction of the camera alone; needs --eye"),
-          fov_row(),
-          with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
-                          "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
-               {.old_names = {"ortho"}}),
-          lens_shift_row(),
-          number_row("pixel-aspect", CAMERA, MEMBER(view.pixel_aspect), 1.0 / MOST_PIXEL_ASPECT,
-                     MOST_PIXEL_ASPECT, "width of a pixel over its height; default 1"),
-          number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
-                     "diameter of the lens, world units; default 0: all is sharp; not with --look paper")
-              .of_looks({LOOK_LIT, LOOK_CLAY, LOOK_AO, LOOK_SCAN}),
-          unset_number_row(
-              "focus", CAMERA, MEMBER(settings.focus_world), 1e-30, 1e30,
-              "distance from the eye at which all is sharp, world units; default the camera's target")
-              .of_looks({LOOK_LIT, LOOK_CLAY, LOOK_AO, LOOK_SCAN}),
-          crop_row().marked(OF_FILES),
-          tile_row().marked(OF_FILES)};
+  return {
+      needed(resolution_row(), "size of the picture in pixels, such as 1920x1080")
+          .marked(OF_FILES | HAS_OWN_CONTROL),
+      camera_path_row().marked(OF_FILES | HAS_OWN_CONTROL),
+      camera_row(),
+      needed(view_row(), "front, oblique, top, inside, dollhouse or sensor"),
+      vector_row("eye", CAMERA, MEMBER(view.eye),
+                 "camera position; default: the scene's camera, else a view of the whole scene"),
+      vector_row("target", CAMERA, MEMBER(view.target),
+                 "point looked at; default the scene's centre; needs --eye"),
+      up_row().marked(OF_SCENES),
+      vector_row("camera-up", CAMERA, MEMBER(view.camera_up),
+                 "up direction of the camera alone; needs --eye"),
+      fov_row(),
+      with(number_row("ortho-height", CAMERA, MEMBER(view.ortho_height), 0.0, 1e30,
+                      "orthographic picture of this height, world units; 0 = perspective; needs --eye"),
+           {.old_names = {"ortho"}}),
+      switch_row("panorama", CAMERA, MEMBER(view.panorama),
+                 "all directions from the eye, equirectangular: longitude across with the target in the "
+                 "middle, latitude down; the largest picture within --resolution that is twice as wide as "
+                 "high")
+          .marked(OF_FILES),
+      lens_shift_row(),
+      number_row("pixel-aspect", CAMERA, MEMBER(view.pixel_aspect), 1.0 / MOST_PIXEL_ASPECT,
+                 MOST_PIXEL_ASPECT, "width of a pixel over its height; default 1"),
+      number_row("aperture", CAMERA, MEMBER(view.aperture_world), 0.0, 1e30,
+                 "diameter of the lens, world units; default 0: all is sharp; not with --look paper")
+          .of_looks({LOOK_LIT, LOOK_CLAY, LOOK_AO, LOOK_SCAN}),
+      unset_number_row(
+          "focus", CAMERA, MEMBER(settings.focus_world), 1e-30, 1e30,
+          "distance from the eye at which all is sharp, world units; default the camera's target")
+          .of_looks({LOOK_LIT, LOOK_CLAY, LOOK_AO, LOOK_SCAN}),
+      crop_row().marked(OF_FILES),
+      tile_row().marked(OF_FILES)};
 }
 
 }  // namespace splatray
