@@ -40,12 +40,42 @@ TEST_F(CliSequences, TurntableTurnsTheCamera) {
   EXPECT_EQ(names(), (std::vector<std::string>{"grid.ply", "t.00.png", "t.01.png", "t.02.png", "t.03.png"}));
   ASSERT_EQ(render_to("still.png", {grid, "--eye=" + eye, target}).code, 0);
   EXPECT_EQ(bytes("still.png"), bytes("t.00.png"));
-  ASSERT_EQ(render_to("turned.png", {grid, "--eye=-0.2,1.2,0.2", target}).code, 0);
+  ASSERT_EQ(render_to("turned.png", {grid, "--eye=-0.2,1.2,0.2", target, "--environment-turn=0.5"}).code, 0);
   const DisplayImage turned = read_display_image(file("turned.png"), 0.0);
   EXPECT_EQ(read_display_image(file("t.02.png"), 0.0).rgb, turned.rgb);
   EXPECT_NE(read_display_image(file("t.00.png"), 0.0).rgb, turned.rgb);
   ASSERT_EQ(run_program({RENDER, "--quiet", "--from", file("t.02.png")}).code, 0);
   EXPECT_EQ(bytes("t.02.again.png"), bytes("t.02.png")) << "a frame's file says how to make it alone";
+}
+
+/// What is seen behind the object: the studio's panels do not pass by, other environments do.
+TEST_F(CliSequences, TheStudioStandsStillAroundATurntable) {
+  const auto backgrounds = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words{grid, "--turntable=4", "--target=0.55,0,0.55", "--look=lit",
+                                   "--keep-noise"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(render_to(name + ".##.png", words).code, 0);
+    std::vector<vec3> corners;
+    for (const char* frame : {".00.png", ".01.png", ".02.png"})
+      corners.push_back(read_display_image(file(name + frame), 0.0).rgb.front());
+    return corners;
+  };
+  const std::vector<vec3> studio = backgrounds("s", {"--eye=1.3,0.3,0.9"});
+  for (const vec3& corner : studio) EXPECT_LT(glm::length(corner - studio.front()), 0.01F);
+  const std::vector<vec3> sky = backgrounds("d", {"--eye=1.3,-0.9,0.9", "--environment=sky:20,90"});
+  EXPECT_GT(glm::length(sky[1] - sky[0]) + glm::length(sky[2] - sky[0]), 0.01F);
+}
+
+TEST_F(CliSequences, APanoramaIsMadeAgain) {
+  const std::vector<std::string> inside{grid, "--panorama", "--eye=0.55,0.4,0.55", "--target=1,0.5,0.55"};
+  ASSERT_EQ(render_to("p.png", inside).code, 0);
+  const DisplayImage picture = read_display_image(file("p.png"), 0.0);
+  EXPECT_EQ(picture.width, 2 * picture.height);
+  ASSERT_EQ(run_program({RENDER, "--quiet", "--from", file("p.png")}).code, 0);
+  EXPECT_EQ(bytes("p.again.png"), bytes("p.png"));
+  std::vector<std::string> both = inside;
+  both.emplace_back("--fov=40");
+  expect_refused([&] { return render_to("q.png", both); }, 2, "found --panorama and --fov");
 }
 
 TEST_F(CliSequences, CameraPathMoves) {

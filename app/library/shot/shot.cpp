@@ -1,5 +1,6 @@
 #include "app/library/shot/shot.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace splatray {
@@ -35,6 +36,17 @@ Settings Shot::traced_settings() const {
   traced.aov = traced.aov || denoises();
   traced.estimate_error = traced.estimate_error || denoises() || request.output.despeckle;
   return traced;
+}
+
+Shot frame_shot(const Shot& shot, std::uint32_t frame) {
+  Shot turned = shot;
+  const auto* sequence = std::get_if<Sequence>(&shot.output);
+  const bool in_studio = shot.environment.empty() || shot.environment == "studio";
+  if (sequence == nullptr || sequence->turntable == 0 || !in_studio) return turned;
+  const double turns = double{shot.settings.environment_turn} + double(frame) / sequence->turntable;
+  turned.settings.environment_turn = static_cast<float>(turns - std::floor(turns));
+  turned.request.settings.environment_turn = turned.settings.environment_turn;
+  return turned;
 }
 
 Camera frame_camera(const Shot& shot, std::uint32_t frame, const Scene& scene) {

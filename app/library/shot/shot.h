@@ -45,6 +45,10 @@ struct Shot {
   [[nodiscard]] Settings traced_settings() const;
 };
 
+/// The shot as a frame of its sequence shows it: on a turntable the object turns, so that the studio around it keeps its place beside the
+/// camera, as the key light does. Other environments are places that the camera goes around in.
+[[nodiscard]] Shot frame_shot(const Shot& shot, std::uint32_t frame);
+
 /// The camera of a frame of the shot.
 [[nodiscard]] Camera frame_camera(const Shot& shot, std::uint32_t frame, const Scene& scene);
 /// That of the first of all frames, though it may not be asked for.

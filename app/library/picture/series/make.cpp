@@ -114,15 +114,15 @@ std::filesystem::path unfinished_file(std::filesystem::path picture) {
 SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener) {
   if (shot.is_orbit()) return make_orbit(shot, shown, listener);
   if (shot.sheet() != nullptr) require_page(shot);
-  const Run run{shot, shown, listener};
   SequenceRecord record;
   std::size_t before = 0;
   for (const SequenceFrame& frame : shot.frames) {
     stop_if_interrupted();
     try {
       const Camera camera = frame_camera(shot, frame.number, shown.scene());
-      if (!shot.request.output.skip_existing || !is_made(shot, camera, frame.output))
-        write_picture(run, camera, frame, before, record);
+      const Shot one = frame_shot(shot, frame.number);
+      if (!shot.request.output.skip_existing || !is_made(one, camera, frame.output))
+        write_picture({one, shown, listener}, camera, frame, before, record);
       else if (++record.skipped; !listener.progress(frame, before, 1.0))
         throw Error(ExitCode::interrupted, "rendering was interrupted");
     } catch (const Error& error) {
