@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/library/cut/line_bridge.h"
+#include "app/library/cut/line_doubles.h"
 #include "app/library/cut/pixel_borders.h"
 #include "app/library/cut/polyline_fit.h"
 #include "app/library/sheet/seen_lines.h"
@@ -199,6 +200,16 @@ TEST(Bridges, JoinWhatGoesOnInALineAndNothingElse) {
   ASSERT_EQ(around.size(), 1U);
   EXPECT_TRUE(around[0].closed);
   EXPECT_EQ(around[0].points.size(), 8U);
+}
+
+TEST(Doubles, AreLeftOutBesideLongerLines) {
+  const CutCurve edge{{{0.0, 0.0}, {20.0, 0.0}}, false}, beside{{{5.0, 0.6}, {9.0, 0.7}}, false},
+      across{{{5.0, 0.0}, {5.0, 8.0}}, false}, apart{{{5.0, 1.5}, {9.0, 1.5}}, false};
+  const std::vector<CutCurve> kept = without_doubles({beside, across, apart, edge}, 1.0);
+  ASSERT_EQ(kept.size(), 3U);
+  EXPECT_EQ(kept[0].points, edge.points);
+  EXPECT_EQ(kept[1].points, across.points);
+  EXPECT_EQ(kept[2].points, apart.points);
 }
 
 TEST(Dashes, AreAsLongAsTheyAreOnPaper) {

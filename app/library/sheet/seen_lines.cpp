@@ -5,6 +5,7 @@
 
 #include "app/library/cut/cut_join.h"
 #include "app/library/cut/line_bridge.h"
+#include "app/library/cut/line_doubles.h"
 #include "app/library/cut/pixel_borders.h"
 #include "app/library/cut/polyline_fit.h"
 #include "app/library/sheet/draw_cut.h"
@@ -131,13 +132,6 @@ class BorderMarker {
   std::uint32_t reach_;  ///< pixels
 };
 
-double length_of(const CutCurve& curve) {
-  double length = curve.closed ? glm::distance(curve.points.front(), curve.points.back()) : 0.0;
-  for (std::size_t i = 1; i < curve.points.size(); ++i)
-    length += glm::distance(curve.points[i - 1], curve.points[i]);
-  return length;
-}
-
 }  // namespace
 
 std::vector<CutCurve> seen_lines(const Sheet& sheet, std::span<const AovPixel> aov) {
@@ -151,11 +145,13 @@ std::vector<CutCurve> seen_lines(const Sheet& sheet, std::span<const AovPixel> a
     CutCurve curve{fitted_polyline(line.points, line.closed, tolerance), line.closed};
     for (glm::dvec2& point : curve.points)
       point = sheet.corner + point * sheet.pixel_world * glm::dvec2(1.0, -1.0);
-    if (curve.points.size() > 1 && length_of(curve) >= LEAST_PART * least) curves.push_back(std::move(curve));
+    if (curve.points.size() > 1 && curve_length(curve) >= LEAST_PART * least)
+      curves.push_back(std::move(curve));
   }
   const double tolerance_world = tolerance * sheet.pixel_world;
   curves = bridged(curves, {least, tolerance_world});
-  std::erase_if(curves, [least](const CutCurve& curve) { return length_of(curve) < least; });
+  std::erase_if(curves, [least](const CutCurve& curve) { return curve_length(curve) < least; });
+  curves = without_doubles(std::move(curves), tolerance_world);
   for (CutCurve& curve : curves) curve = simplified(curve, 0.5 * tolerance_world);
   return curves;
 }
