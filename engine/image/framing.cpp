@@ -121,11 +121,29 @@ glm::dmat3 angled_axes(const glm::dmat3& axes, double azimuth_deg, double elevat
   return {right, glm::cross(back, right), back};
 }
 
+/// From which of four sides a doll's house is looked into: the usual one, unless walls face another more than twice as much, as in
+/// half a room, of which the usual view may leave both walls out.
+double doll_azimuth(const PointSample& sample, const glm::dmat3& upright) {
+  constexpr double MORE = 2.0, WALL = 0.5;  // height of a wall's normal, at most
+  const auto faced = [&](double azimuth_deg) {
+    const glm::dvec3 back = angled_axes(upright, azimuth_deg, DOLL_ELEVATION_DEG)[2];
+    return static_cast<double>(
+        std::count_if(sample.normal.begin(), sample.normal.end(), [&](const glm::dvec3& normal) {
+          return std::abs(glm::dot(normal, upright[1])) < WALL && glm::dot(normal, back) > 0.0;
+        }));
+  };
+  double best = DOLL_AZIMUTH_DEG, most = MORE * faced(best);
+  for (const double turn : {180.0, 90.0, -90.0})
+    if (const double here = faced(DOLL_AZIMUTH_DEG + turn); here > most)
+      best = DOLL_AZIMUTH_DEG + turn, most = here;
+  return best;
+}
+
 /// Into a room from above, its frame about what faces the eye: the rest is left out.
 Camera camera_into_dollhouse(const Scene& scene, double aspect, double fov_y_deg, const Region& region) {
-  const glm::dmat3 upright = upright_axes(scene.up),
-                   axes = angled_axes(upright, DOLL_AZIMUTH_DEG, DOLL_ELEVATION_DEG);
+  const glm::dmat3 upright = upright_axes(scene.up);
   const PointSample sample = framed_points(scene, region);
+  const glm::dmat3 axes = angled_axes(upright, doll_azimuth(sample, upright), DOLL_ELEVATION_DEG);
   std::vector<glm::dvec3> facing;
   for (std::size_t i = 0; i < sample.normal.size(); ++i)
     if (glm::dot(sample.normal[i], axes[2]) > 0.0) facing.push_back(sample.position[i]);

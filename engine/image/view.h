@@ -134,7 +134,7 @@ enum class Viewpoint {
   oblique,    ///< the same from 35 degrees above: terrain, sites
   top,        ///< from straight above, the front at the bottom
   inside,     ///< from a scanner's place, or the middle at eye height, towards most of what is there
-  dollhouse,  ///< into a room from its front, left and above; with Settings::cutaway it lies open
+  dollhouse,  ///< into a room from above, from the left front or where its walls face; with Settings::cutaway
   sensor,     ///< from where a depth camera or scanner was, as it saw; front where no place is known
 };
 

@@ -55,6 +55,13 @@ CoarsePicture coarse_picture(const PointSample& sample, const Camera& camera, bo
   return picture;
 }
 
+/// The camera half a turn about the vertical through its target away: half a room that is open to one is closed to the other.
+Camera from_other_side(Camera camera, const glm::dvec3& up) {
+  const glm::dvec3 back = camera.eye - camera.target;
+  camera.eye = camera.target + 2.0 * glm::dot(back, up) * up - back;
+  return camera;
+}
+
 bool is_outside(Viewpoint viewpoint) {
   return viewpoint == Viewpoint::front || viewpoint == Viewpoint::oblique;
 }
@@ -96,10 +103,12 @@ CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint 
     return {viewpoint, closed ? ViewFault::closed : ViewFault::none, all.behind};
   }
   if (viewpoint == Viewpoint::dollhouse) {
-    if (all.behind < OPEN_BEHIND) return {viewpoint, ViewFault::closed, all.behind};
+    const double behind = std::max(
+        all.behind, view_figures(sample, from_other_side(camera, glm::normalize(scene.up)), false).behind);
+    if (behind < OPEN_BEHIND) return {viewpoint, ViewFault::closed, behind};
     const double background = view_figures(sample, camera, true).background;
     if (background > DOLL_BACKGROUND) return {viewpoint, ViewFault::background, background};
-    return {viewpoint, ViewFault::none, all.behind};
+    return {viewpoint, ViewFault::none, behind};
   }
   if (all.near > INSIDE_NEAR) return {viewpoint, ViewFault::in_wall, all.near};
   if (all.background > INSIDE_BACKGROUND) return {viewpoint, ViewFault::background, all.background};

@@ -41,8 +41,9 @@ struct CheckedView {
 
 /// The check of one view of a scan. A view from outside, front or oblique, is closed where more than 65 % of what it shows is seen from
 /// behind and most of the points lie in upright or level planes: it looks at the backs of walls. A doll's house is closed where less
-/// than 15 % faces away from the camera, so that nothing is left out, and shows background where 90 % is empty. A view from inside is in a
-/// wall where a quarter is next to the camera, has one plane where that is more than 70 %, and background where more than 75 % is empty.
+/// than 15 % faces away from the camera, and from one at the other side, so that nothing is left out; it shows background where
+/// 90 % is empty. A view from inside is in a wall where a quarter is next to the camera, has one plane where that is more than
+/// 70 %, and background where more than 75 % is empty.
 [[nodiscard]] CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint viewpoint);
 
 /// The views of a scan of this kind that are tried, ending with the first without a fault, which is to be shown: `first`, the kind's own,

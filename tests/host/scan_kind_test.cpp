@@ -81,6 +81,25 @@ TEST(CheckedViews, WallsThatTurnTheirBacksOpen) {
   EXPECT_GT(views[0].share, 0.5);
   EXPECT_EQ(views[1].viewpoint, Viewpoint::dollhouse);
   EXPECT_EQ(views[1].fault, ViewFault::none);
+  OrientedPoints turned = half_room();
+  for (auto& [position, normal] : turned) position.x = -position.x, normal.x = -normal.x;
+  const Scene other = scan_scene(turned);
+  EXPECT_EQ(check_view(other, sample_points(other), Viewpoint::dollhouse).fault, ViewFault::none)
+      << "it is looked into from its open side, where nothing faces away";
+}
+
+TEST(DollHouse, IsLookedIntoFromWhereItsWallsFace) {
+  const auto eye = [](const OrientedPoints& points) {
+    return viewpoint_camera(scan_scene(points), Viewpoint::dollhouse, 1.5, {}).eye;
+  };
+  const glm::dvec3 usual = eye(box_points({4.0, 5.0, 3.0}, true));
+  EXPECT_LT(usual.x, 0.0);
+  EXPECT_LT(usual.y, 0.0);
+  OrientedPoints turned = half_room();
+  for (auto& [position, normal] : turned) position.x = -position.x, normal.x = -normal.x;
+  const glm::dvec3 other = eye(turned);
+  EXPECT_GT(other.x, 0.0) << "the walls at the left and the front face right and back";
+  EXPECT_GT(other.y, 0.0);
 }
 
 TEST(CheckedViews, WhatShowsItsFrontStays) {
