@@ -70,14 +70,15 @@ void require_picture_memory(const Shot& shot) {
 }
 
 void require_outputs_writable(const Request& request) {
-  require_writable(request.output.path);
-  if (!request.output.height_raster.empty()) require_writable(request.output.height_raster);
-  if (!request.output.measures.empty()) static_cast<void>(read_measures(request.output.measures, ""));
-  require_picture_writer(request.output.path);
-  const bool drawn = request.view.sheet && !is_picture_format(request.output.path) &&
-                     lower_extension(request.output.path) != ".dxf";
-  if (drawn || !request.output.height_raster.empty()) require_sheet_writer();
-  if (!request.output.stats_json.empty()) require_writable(request.output.stats_json);
+  const Request::Output& output = request.output;
+  require_writable(output.film.empty() ? output.path : output.film);
+  if (!output.height_raster.empty()) require_writable(output.height_raster);
+  if (!output.measures.empty()) static_cast<void>(read_measures(output.measures, ""));
+  require_picture_writer(output.path);
+  const bool drawn =
+      request.view.sheet && !is_picture_format(output.path) && lower_extension(output.path) != ".dxf";
+  if (drawn || !output.height_raster.empty()) require_sheet_writer();
+  if (!output.stats_json.empty()) require_writable(output.stats_json);
 }
 
 std::optional<DisplayImage> read_reference(const Request& request) {

@@ -123,6 +123,9 @@ struct Format {
 void check_format(const Request& request) {
   const Request::Output& output = request.output;
   if (output.path.empty()) return;
+  if (!output.film.empty() && !output.many())
+    fail("found output '" + output.film.string() +
+         "' of a single picture, expected --turntable or --camera-path");
   const std::string extension = lower_extension(output.path);
   const std::array formats = {
       Format{output.orbit_columns > 0, " with --orbit", {".html"}},

@@ -102,6 +102,7 @@ struct Request {
   /// Which pictures are made, and what is written of them.
   struct Output {
     std::filesystem::path path;    ///< empty = nowhere
+    std::filesystem::path film{};  ///< .mp4 that the pictures at `path` are made into; empty = none
     std::filesystem::path resume;  ///< an EXR of fewer samples that they are added to; empty = none
     bool mixed_devices = false;    ///< also of one that another device or driver made
     std::optional<bool> denoise;   ///< false: --keep-noise; unset: as suits the picture

@@ -57,7 +57,9 @@ TEST_F(Tiles, OfEntwineAreAnOctree) {
   EXPECT_EQ(levels.edge, 64.0);
   EXPECT_EQ(levels.nodes[2].cell, glm::uvec3(0, 3, 2));
   EXPECT_EQ(levels.nodes[2].parent, 1U);
-  const ScanFile file = read(ept(), {.heads_only = true});
+  ReadOptions heads;
+  heads.heads_only = true;
+  const ScanFile file = read(ept(), heads);
   EXPECT_EQ(file.counts.stored, 80U);
   EXPECT_EQ((*file.said_box)[1], glm::dvec3(9.0));
 }

@@ -7,6 +7,7 @@
 
 #include "app/library/picture/picture_file.h"
 #include "app/library/picture/reproduce.h"
+#include "app/library/picture/series/film.h"
 #include "app/library/picture/series/orbit.h"
 #include "app/library/request/command_line.h"
 #include "app/library/sheet/sheet_files.h"
@@ -114,6 +115,7 @@ std::filesystem::path unfinished_file(std::filesystem::path picture) {
 SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener) {
   if (shot.is_orbit()) return make_orbit(shot, shown, listener);
   if (shot.sheet() != nullptr) require_page(shot);
+  const FilmFolder folder(shot.request.output);
   SequenceRecord record;
   std::size_t before = 0;
   for (const SequenceFrame& frame : shot.frames) {
@@ -131,6 +133,7 @@ SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListen
     }
     ++before;
   }
+  if (!shot.request.output.film.empty() && record.failed.empty()) write_film(shot.request.output, shot.frames);
   return record;
 }
 

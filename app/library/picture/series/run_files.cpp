@@ -1,6 +1,7 @@
 #include "app/library/picture/series/run_files.h"
 
 #include "app/library/picture/picture_file.h"
+#include "app/library/picture/series/film.h"
 #include "app/library/picture/series/make.h"
 #include "app/library/sheet/sheet_files.h"
 #include "app/library/shot/environment.h"
@@ -31,7 +32,7 @@ void add_picture(const Request& request, const fs::path& file, std::vector<fs::p
 /// All that a run may write; empty ones are none.
 std::vector<fs::path> written_files(const Request& request, const std::vector<SequenceFrame>& frames) {
   const Request::Output& output = request.output;
-  std::vector<fs::path> files{output.height_raster, output.stats_json};
+  std::vector<fs::path> files{output.film, output.height_raster, output.stats_json};
   for (const SequenceFrame& frame : frames) add_picture(request, frame.output, files);
   const bool has_sums = lower_extension(output.path) == ".exr";
   if (!output.many() && output.orbit_columns == 0 && !has_sums)
@@ -69,6 +70,7 @@ void require_inputs_present(const Request& request) {
 }
 
 void claim_outputs(const Request& request, const std::vector<SequenceFrame>& frames) {
+  require_film_maker(request.output);
   for (const fs::path& file : written_files(request, frames))
     if (!file.empty()) claim_output(file);
 }

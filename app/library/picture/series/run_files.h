@@ -12,7 +12,7 @@ void note_inputs(const Request& request);
 void require_inputs_present(const Request& request);
 
 /// Claims all that a run of splatray-render may write: pictures, what lies beside them, and files of their own. Throws Error
-/// (usage) as claim_output does.
+/// (usage) as claim_output and require_film_maker do.
 void claim_outputs(const Request& request, const std::vector<SequenceFrame>& frames);
 
 /// The same for processes that make pictures as often as they like: throws Error (usage) where one of these files is an input.

@@ -5,6 +5,7 @@
 #include "engine/base/nearest_name.h"
 #include "engine/base/number_text.h"
 #include "engine/image/aovs.h"
+#include "preprocess/base/file_extension.h"
 
 namespace splatray {
 namespace {
@@ -88,6 +89,29 @@ Field orbit_row() {
   return row;
 }
 
+/// The pictures of a film lie in a folder beside it.
+Field output_row() {
+  Field row = value_row(
+      "output", OUTPUT, "FILE",
+      "the picture: .png, .jpg or .webp (sRGB; the last two of quality 95, .jpg without transparency) or "
+      ".exr "
+      "(linear float); of a sequence with a run of # for the frame's digits such as out.####.png, or a film, "
+      ".mp4, by ffmpeg",
+      [](Request& request, const std::string& text) {
+        const std::filesystem::path path = text;
+        const bool is_film = lower_extension(path) == ".mp4";
+        request.output.film = is_film ? path : std::filesystem::path();
+        request.output.path =
+            is_film ? path.parent_path() / (path.stem().string() + ".frames") / "######.png" : path;
+      },
+      [](const Request& request) {
+        const Request::Output& output = request.output;
+        return (output.film.empty() ? output.path : output.film).string();
+      });
+  return needed(with(row, {.letter = "-o"}), "the picture to write: .png, .jpg, .webp or .exr")
+      .marked(HAS_OWN_CONTROL);
+}
+
 /// Rows that concern a program's run, not a picture.
 std::vector<Field> file_fields() {
   constexpr FieldGroup FILES = FieldGroup::files;
@@ -122,13 +146,7 @@ std::vector<Field> file_fields() {
 
 std::vector<Field> output_fields() {
   std::vector<Field> rows = {
-      needed(with(path_row("output", OUTPUT, MEMBER(output.path),
-                           "the picture: .png, .jpg or .webp (sRGB; the last two of quality 95, .jpg without "
-                           "transparency) or .exr (linear float); of a sequence with a run of # for the "
-                           "frame's digits such as out.####.png"),
-                  {.letter = "-o"}),
-             "the picture to write: .png, .jpg, .webp or .exr")
-          .marked(HAS_OWN_CONTROL),
+      output_row(),
       aov_row().marked(NOT_OF_LIGHT | OF_PICTURES),
       with(path_row("resume", OUTPUT, MEMBER(output.resume),
                     "continue this EXR (same command, fewer --samples, or interrupted) up to --samples"),
@@ -145,7 +163,7 @@ std::vector<Field> output_fields() {
       needed(number_row("turntable", OUTPUT, MEMBER(output.turntable), 0, 999999,
                         "this many pictures of a full turn about the scene's up axis through the target; "
                         "default 0 = none"),
-             "so many pictures of a full turn, -o out.####.png")
+             "so many pictures of a full turn, -o out.####.png or out.mp4")
           .marked(HAS_OWN_CONTROL),
       orbit_row(),
       frames_row().marked(OF_SEQUENCES),
