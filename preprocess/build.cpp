@@ -107,11 +107,12 @@ void number_objects(const std::vector<Cloud>& clouds, std::vector<Material>& mat
 }
 
 /// The points of a scan whose radii are not given, but for discs on no surface, which have theirs already: those that scan/evidence.h
-/// asks of.
-std::vector<std::uint32_t> find_computed(const Cloud& cloud) {
-  return numbers_where(cloud.size(), [&](std::size_t i) {
-    return cloud.measured && (cloud.radius.empty() || cloud.radius[i] == 0.0F || !cloud.on_surface(i));
-  });
+/// asks of. A bit each, as they are kept while radii are found.
+std::vector<bool> find_computed(const Cloud& cloud) {
+  std::vector<bool> computed(cloud.size());
+  for (std::size_t i = 0; i < computed.size(); ++i)
+    computed[i] = cloud.measured && (cloud.radius.empty() || cloud.radius[i] == 0.0F || !cloud.on_surface(i));
+  return computed;
 }
 
 /// Estimates unknown normals; scans are freed of strays and noise, too.
@@ -180,10 +181,11 @@ void find_all_radii(std::vector<Cloud>& clouds, const Scene& scene, const Progre
   const double isolated_world = (diagonal > 0.0 ? ISOLATED_SHARE * diagonal : 1.0) * scene.build.radius_scale;
   for (Cloud& cloud : clouds) {
     require_stage_memory("radii", cloud.size(), RADII_BYTES);
-    const std::vector<std::uint32_t> computed = find_computed(cloud);
+    const std::vector<bool> computed = find_computed(cloud);
     find_radii(cloud, scene.build.radius_rule, scene.build.radius_scale,
                scene.build.normal_fields && !cloud.lattice, {"radii", progress});
-    stats.dots += make_dots(cloud, computed, {"radii", progress});
+    const auto asked = numbers_where(cloud.size(), [&](std::size_t i) { return computed[i]; });
+    stats.dots += make_dots(cloud, asked, {"radii", progress});
     const auto isolated =
         numbers_where(cloud.size(), [&](std::size_t i) { return !(cloud.radius[i] > 0.0F); });
     for (const std::uint32_t i : isolated)

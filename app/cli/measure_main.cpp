@@ -71,10 +71,9 @@ void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
   list.set_group("Measures");
   add(MeasureKind::angle, "angle at the second of three places", "PLACE;PLACE;PLACE");
   add(MeasureKind::area, "area and perimeter of a polygon of places", "PLACE;PLACE;PLACE...");
-  add(MeasureKind::sphere, "radius of the sphere through what is within REACH of a place", "PLACE;REACH");
-  add(MeasureKind::cylinder, "radius of the cylinder through what is within REACH of a place", "PLACE;REACH");
-  add(MeasureKind::plane, "tilt of the plane through what is within REACH of a place, from level",
-      "PLACE;REACH");
+  add(MeasureKind::sphere, "radius of the sphere within REACH of a place", "PLACE;REACH");
+  add(MeasureKind::cylinder, "radius of the cylinder within REACH of a place", "PLACE;REACH");
+  add(MeasureKind::plane, "tilt from level of the plane within REACH", "PLACE;REACH");
   list.add_repeated(
       "--name",
       [&measures](const std::string& text) {

@@ -29,6 +29,17 @@ struct CoarsePicture {
   static constexpr std::uint32_t NOTHING = std::numeric_limits<std::uint32_t>::max();
 };
 
+/// The share of the picture that is empty, by blocks of 4 x 4 pixels, as points of a thin scan do not lie in each pixel.
+double background_of(const CoarsePicture& picture) {
+  constexpr int BLOCK = 4, ACROSS = WIDTH / BLOCK, DOWN = HEIGHT / BLOCK;
+  std::array<bool, ACROSS * DOWN> met{};
+  for (int y = 0; y < HEIGHT; ++y)
+    for (int x = 0; x < WIDTH; ++x)
+      if (picture.point[static_cast<std::size_t>(y * WIDTH + x)] != CoarsePicture::NOTHING)
+        met[static_cast<std::size_t>(y / BLOCK * ACROSS + x / BLOCK)] = true;
+  return share_of(static_cast<std::size_t>(std::count(met.begin(), met.end(), false)), met.size());
+}
+
 bool faces_away(const PointSample& sample, std::size_t i, const glm::dvec3& eye) {
   return glm::dot(sample.normal[i], eye - sample.position[i]) < 0.0;
 }
@@ -86,8 +97,7 @@ ViewFigures view_figures(const PointSample& sample, const Camera& camera, bool c
                                    static_cast<int>(std::round(height / (PLANE_STEP * size)))};
     largest = std::max(largest, ++planes[plane]);
   }
-  return {1.0 - share_of(met, picture.point.size()), share_of(behind, met), share_of(largest, met),
-          share_of(near, met)};
+  return {background_of(picture), share_of(behind, met), share_of(largest, met), share_of(near, met)};
 }
 
 const char* view_fault_name(ViewFault fault) {

@@ -11,7 +11,7 @@ namespace splatray {
 
 /// Shares, 0..1, of a picture of 32 x 24 pixels that has the foremost of an even choice of the points in each.
 struct ViewFigures {
-  double background = 1.0;  ///< of all pixels: nothing
+  double background = 1.0;  ///< of all blocks of 4 x 4 pixels: nothing
   double behind = 0.0;      ///< of the others: a surface that is seen from behind
   double plane = 0.0;       ///< of these: of the largest plane
   double near = 0.0;        ///< of these: nearer than 3 % of the points' extent

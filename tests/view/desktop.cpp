@@ -177,10 +177,17 @@ void Desktop::drop(unsigned long window, const std::string& file) const {
 
 std::vector<std::uint32_t> Desktop::pixels(unsigned long window) const {
   const Connection connection = connect(display_);
-  XWindowAttributes shape{};
-  require(XGetWindowAttributes(connection.get(), window, &shape) != 0, "the window is gone");
-  XImage* image = XGetImage(connection.get(), window, 0, 0, static_cast<unsigned>(shape.width),
-                            static_cast<unsigned>(shape.height), AllPlanes, ZPixmap);
+  // A window that is moved or resized in between has other pixels than were asked for, an error that would end the test's process.
+  const auto before = XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
+  XImage* image = nullptr;
+  for (const Clock::time_point end = after(20.0); image == nullptr && Clock::now() < end;) {
+    XWindowAttributes shape{};
+    require(XGetWindowAttributes(connection.get(), window, &shape) != 0, "the window is gone");
+    image = XGetImage(connection.get(), window, 0, 0, static_cast<unsigned>(shape.width),
+                      static_cast<unsigned>(shape.height), AllPlanes, ZPixmap);
+    if (image == nullptr) std::this_thread::sleep_for(PAUSE);
+  }
+  XSetErrorHandler(before);
   require(image != nullptr, "the window shows nothing");
   std::vector<std::uint32_t> pixels;
   for (int y = 0; y < image->height; ++y)
