@@ -46,16 +46,15 @@ def pixels_of(picture):
 
 
 class Table:
-    def __init__(self, town, programs, memory):
-        self.town, self.programs, self.memory, self.lines = town, programs, memory, []
-        self.work = pathlib.Path(tempfile.mkdtemp(dir=town.parent))
+    def __init__(self, town, programs, memory, work):
+        self.town, self.programs, self.memory, self.work, self.lines = town, programs, memory, work, []
         text = subprocess.run([programs / "splatray-info", "--head", town], capture_output=True, text=True, check=True).stdout
         self.edge_m = float(re.search(r"edge ([\d.]+)", text)[1])
         self.places = places(self.edge_m)
 
     def render(self, place, name, *options, source=None):
         camera = [word for key, numbers in self.places[place].items() for word in (f"--{key}", ",".join(map(str, numbers)))]
-        picture = self.work / f"{name}.png"
+        picture = self.work / (name if name.endswith(".exr") else f"{name}.png")
         picture.unlink(missing_ok=True)
         run = Run([self.programs / "splatray-render", source or self.town, *camera, "--fov", "45", "--device", "cpu", "--look", "scan", *options,
                    "-o", picture])
@@ -74,7 +73,7 @@ class Table:
             self.lines.append(f"| {name} | {run.seconds:.1f} | {run.cpu_s:.1f} | {run.peak_bytes / 1e6:.0f} | {run.points} |")
 
     def same_pixels(self):
-        small = ("--resolution", "480x270", "--samples", "4", "--lod", "2")
+        small = ("--resolution", "480x270", "--samples", "4", "--lod", "2", "--keep-noise")
         _, whole = self.render("above", "whole", *small)
         truth = pixels_of(whole)
         self.lines += ["", "| the same pixels as `--lod 2`, 480x270, 4 samples, from above | differ |", "| --- | --- |"]
@@ -90,7 +89,7 @@ class Table:
             self.lines.append(f"| {name} | {differ} bytes |")
 
     def merged(self, options):
-        tiles = [self.render("above", f"tile{i}", *options, "--tile", f"{i}/2")[1].rename(self.work / f"part{i}.png") for i in (1, 2)]
+        tiles = [self.render("above", f"tile{i}.exr", *options, "--tile", f"{i}/2")[1] for i in (1, 2)]
         picture = self.work / "merged.png"
         subprocess.run([self.programs / "splatray-merge", *tiles, "-o", picture], check=True, capture_output=True)
         return picture
@@ -103,9 +102,10 @@ def main():
     parser.add_argument("--memory", default="8G")
     parser.add_argument("-o", type=pathlib.Path, required=True)
     asked = parser.parse_args()
-    table = Table(asked.town, asked.bin, asked.memory)
-    table.speed()
-    table.same_pixels()
+    with tempfile.TemporaryDirectory(dir=asked.town.parent) as work:
+        table = Table(asked.town, asked.bin, asked.memory, pathlib.Path(work))
+        table.speed()
+        table.same_pixels()
     asked.o.write_text("\n".join(table.lines) + "\n")
     print("\n".join(table.lines))
 
