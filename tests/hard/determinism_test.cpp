@@ -46,7 +46,8 @@ Image picture_of(DeviceScene& device, std::uint32_t order = ORDER_Z) {
   Settings settings;
   settings.samples = 4;
   settings.order = order;
-  return device.render({{.eye = {0.0, 1.5, 6.0}}, 161, 93}, settings, studio_environment());
+  return device.render({{.eye = {0.0, 1.5, 6.0}}, hard_width(161), hard_width(93)}, settings,
+                       studio_environment());
 }
 
 /// Compares a picture with the scene's own.
@@ -140,7 +141,8 @@ TEST(Determinism, AnotherSeedIsNoticed) {
   Settings settings;
   settings.samples = 4;
   settings.seed = 2;
-  const Image other = device.render({{.eye = {0.0, 1.5, 6.0}}, 161, 93}, settings, studio_environment());
+  const Image other = device.render({{.eye = {0.0, 1.5, 6.0}}, hard_width(161), hard_width(93)}, settings,
+                                    studio_environment());
   conclude_failing(compare_pixels(device, first, other, "bits of pixels, seeds 1 and 2"));
 }
 

@@ -44,7 +44,7 @@ struct Measured {
 };
 
 Measured measure(DeviceScene& device, const Probe& probe) {
-  View view{{.eye = probe.origin, .target = probe.origin + probe.dir}, 64, 64};
+  View view{{.eye = probe.origin, .target = probe.origin + probe.dir}, hard_width(64), hard_width(64)};
   view.camera.up = std::abs(probe.dir.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(1.0, 0.0, 0.0);
   view.camera.ortho_height = 1e-4;
   Settings settings;

@@ -23,7 +23,8 @@ CaseRow furnace(const Material& material, std::uint32_t max_bounces, const std::
   DeviceScene device(scene);
   Settings settings;
   settings.max_bounces = max_bounces;
-  const Image image = device.render({default_camera(scene, 1.0), 128, 128}, settings, WHITE);
+  const Image image =
+      device.render({default_camera(scene, 1.0), hard_width(128), hard_width(128)}, settings, WHITE);
   const double lost =
       double(device.counter(COUNT_ENERGY_LOST)) / 1024.0 / double(device.counter(COUNT_PRIMARY));
   const std::uint64_t cut = device.counter(COUNT_BOUNCE_LIMIT);
@@ -65,7 +66,9 @@ TEST(Energy, MirrorRoomNeverEnds) {
   Settings settings;
   settings.max_bounces = 64;
   settings.samples = 1;
-  const View view{{.eye = {0.1, 0.2, 0.3}, .target = {0.7, 0.5, -0.9}, .fov_y_deg = 90.0}, 128, 128};
+  const View view{{.eye = {0.1, 0.2, 0.3}, .target = {0.7, 0.5, -0.9}, .fov_y_deg = 90.0},
+                  hard_width(128),
+                  hard_width(128)};
   const Image image = device.render(view, settings, WHITE);
   CaseRow row = device.row("paths that get out of a closed mirror room");
   row.count = device.counter(COUNT_PRIMARY);
@@ -99,7 +102,7 @@ TEST(Shadow, TerminatorHasNoDarkFacets) {
   for (const bool even : {true, false}) {
     const Scene scene = scene_of({{sphere({.count = 20000, .even = even}, 1.0), test_material(0)}});
     const SceneLight light{LIGHT_DIRECTIONAL, glm::normalize(dvec3(1.0, 0.2, -0.2)), vec3(1.0F)};
-    const View view{{.eye = {0.0, 0.0, 4.0}}, 256, 256};
+    const View view{{.eye = {0.0, 0.0, 4.0}}, hard_width(256), hard_width(256)};
     const Lit with = lit_by(scene, light, view, true,
                             std::string("sphere lit sideways, ") + (even ? "even" : "random") +
                                 " splats: pixels that shadow rays darken, convex shape");
@@ -125,7 +128,9 @@ Scene white_floor() {
 }
 
 View from_above() {
-  View view{{.eye = {0.0, 3.0, 0.0}, .target = dvec3(0.0), .up = {0.0, 0.0, -1.0}}, 128, 128};
+  View view{{.eye = {0.0, 3.0, 0.0}, .target = dvec3(0.0), .up = {0.0, 0.0, -1.0}},
+            hard_width(128),
+            hard_width(128)};
   view.camera.ortho_height = 1.6;
   return view;
 }

@@ -59,8 +59,8 @@ TEST_P(Placed, PicturesAreTheSame) {
   for (const Placement& placement : {Placement{"", 1.0, dvec3(0.0)}, GetParam()}) {
     DeviceScene device(placed_sphere(placement.scale, placement.offset));
     View view{{.eye = placement.offset + placement.scale * dvec3(2.0, 1.0, 3.0), .target = placement.offset},
-              128,
-              128};
+              hard_width(128),
+              hard_width(128)};
     images.push_back(device.render(view, settings, {}));
     row =
         device.row("object of each pixel and its normal within 0.1 degree, those at scale 1 without offset");

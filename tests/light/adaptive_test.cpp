@@ -20,14 +20,16 @@ class Adaptive : public ::testing::Test {
     settings_.look = LOOK_LIT;
     settings_.max_bounces = 1;
     settings_.samples = 65536;
-    Settings many = settings_;
-    many.samples = 512;
-    many.seed = 77;
-    truth_ = tracer_.render(view(), many).rgba;
   }
   void TearDown() override { EXPECT_EQ(device_->validation_messages(), 0U); }
 
   [[nodiscard]] View view() const { return {camera_, WIDTH, HEIGHT}; }
+  [[nodiscard]] std::vector<vec4> picture_of_many_samples() {
+    Settings many = settings_;
+    many.samples = 512;
+    many.seed = 77;
+    return tracer_.render(view(), many).rgba;
+  }
 
   const Scene scene_ =
       scene_of({{sphere({.count = 2000, .even = true, .seed = 3}, 1.0), test_material(MATERIAL_TWO_SIDED)}});
@@ -35,15 +37,15 @@ class Adaptive : public ::testing::Test {
   const std::unique_ptr<Device> device_ = tested_device();
   ShownTracer tracer_{*device_};
   Settings settings_;
-  std::vector<vec4> truth_;
 };
 
 TEST_F(Adaptive, ReportsTheErrorItHas) {
   SPLATRAY_NIGHTLY();
+  const std::vector<vec4> truth = picture_of_many_samples();
   double samples_before = 0.0;
   for (const double error : {0.3, 0.1, 0.05}) {
     const Image image = tracer_.render_until(view(), settings_, {.error = error});
-    const double found = error_against(image, truth_);
+    const double found = error_against(image, truth);
     EXPECT_LT(found, error);
     EXPECT_NEAR(tracer_.stats().error, found, 0.15 * found) << error;
     EXPECT_GT(tracer_.stats().samples, 1.5 * samples_before);
@@ -106,11 +108,12 @@ TEST_F(Adaptive, HardlyDarkensWhatIsRare) {
 
 /// From the change that the second half of the samples made, which is the first half's error and so at least the whole's.
 TEST_F(Adaptive, FixedSamplesReportNoLessThanTheirError) {
+  const std::vector<vec4> truth = picture_of_many_samples();
   settings_.samples = 32;
   settings_.estimate_error = true;
   const Image image = tracer_.render(view(), settings_);
-  EXPECT_GT(tracer_.stats().error, 0.9 * error_against(image, truth_));
-  EXPECT_LT(tracer_.stats().error, 3.0 * error_against(image, truth_));
+  EXPECT_GT(tracer_.stats().error, 0.9 * error_against(image, truth));
+  EXPECT_LT(tracer_.stats().error, 3.0 * error_against(image, truth));
   settings_.estimate_error = false;
   EXPECT_EQ(tracer_.render(view(), settings_).rgba, image.rgba);
 }

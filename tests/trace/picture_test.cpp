@@ -87,7 +87,7 @@ constexpr double NUDGE = 0x1p-21;
 constexpr double STEPPED = 0x1p-16;
 
 Pictures pictures_of(Scene scene, const Tolerance& tolerance) {
-  View view{default_camera(scene, 4.0 / 3.0), 96, 72};
+  View view{default_camera(scene, 4.0 / 3.0), all_or(96U, 64U), all_or(72U, 48U)};
   if (scene.lights.empty()) scene.lights = default_lights(scene, view.camera);
   const Environment environment =
       scene.environment_path.empty() ? studio_environment() : read_environment(scene.environment_path);
@@ -272,7 +272,7 @@ TEST(Picture, NoLensWithoutPerspective) {
 
 TEST(Picture, AMovedSplatIsNoticed) {
   Scene scene = scene_of({{sphere({.count = 500}, 1.0), test_material(0)}});
-  const View view{default_camera(scene, 4.0 / 3.0), 96, 72};
+  const View view{default_camera(scene, 4.0 / 3.0), all_or(96U, 64U), all_or(72U, 48U)};
   scene.lights = default_lights(scene, view.camera);
   const Environment environment = studio_environment();
   const Image gpu = gpu_picture(scene, view, environment);

@@ -59,6 +59,8 @@ std::size_t hard_rays() {
   return all_or(DEFAULT_RAYS, RAYS_OF_A_LANDING);
 }
 
+std::uint32_t hard_width(std::uint32_t all) { return all_or(all, all / 2); }
+
 std::uint64_t known_of(std::uint64_t by_default, std::uint64_t of_ten_million) {
   return hard_rays() <= DEFAULT_RAYS ? by_default : of_ten_million;
 }

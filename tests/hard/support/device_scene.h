@@ -17,6 +17,9 @@ namespace splatray::testing {
 /// How many rays the big counts take: the variable SPLATRAY_HARD_RAYS, or a million with SPLATRAY_TEST_ALL, else 20 000.
 [[nodiscard]] std::size_t hard_rays();
 
+/// How wide a picture is of which each pixel is a case of its own: `all` with SPLATRAY_TEST_ALL, else half of it.
+[[nodiscard]] std::uint32_t hard_width(std::uint32_t all);
+
 /// The number of exceptions measured with the default number of rays, or with more of them, up to 10^7.
 [[nodiscard]] std::uint64_t known_of(std::uint64_t by_default, std::uint64_t of_ten_million);
 
