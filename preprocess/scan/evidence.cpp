@@ -17,7 +17,7 @@ namespace {
 
 /// The neighbourhoods that are tried: the least that a plane is told from chance by, and what averages out noise that is as wide as
 /// the least one.
-constexpr std::array<std::size_t, 3> SIZES{12, 20, 32};
+constexpr std::array<std::size_t, 3> CELL_SIZES{12, 20, 32};
 /// In units of the median radius. Discs of even samples, whose radii differ less than these (CLOSED in radius.cpp), are not asked.
 constexpr float LARGE = 2.0F;
 constexpr double FLAT =
@@ -67,7 +67,7 @@ bool is_flat(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour>
 
 /// `nearest` ascend.
 bool is_shown(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour> nearest) {
-  return std::any_of(SIZES.begin(), SIZES.end(), [&](std::size_t size) {
+  return std::any_of(CELL_SIZES.begin(), CELL_SIZES.end(), [&](std::size_t size) {
     if (size > nearest.size()) return false;
     const auto some = nearest.first(size);
     const float radius = cloud.radius[point];
@@ -100,7 +100,7 @@ std::vector<std::uint32_t> find_bare(const Cloud& cloud, const std::vector<std::
                                      const Stage& stage) {
   const NeighbourSearch search(cloud, Sites::oriented_surface);
   std::vector<Disc> discs(cloud.size(), Disc::small);
-  visit_around(cloud, search, large, SIZES.back(), stage,
+  visit_around(cloud, search, large, CELL_SIZES.back(), stage,
                [&](std::uint32_t, std::uint32_t i, std::span<const Neighbour> nearest) {
                  discs[i] = is_shown(cloud, i, nearest) ? Disc::shown : Disc::bare;
                });

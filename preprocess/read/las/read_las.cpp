@@ -11,6 +11,7 @@
 #include "preprocess/read/las/las_header.h"
 #include "preprocess/read/las/las_units.h"
 #include "preprocess/read/las/las_vlrs.h"
+#include "preprocess/read/las/laz/laz_layout.h"
 #include "preprocess/read/las/laz/read_laz.h"
 
 namespace splatray {
@@ -34,16 +35,18 @@ std::vector<LasExtraBytes> wanted_extra_bytes(const LasHeader& header, const Las
   return wanted;
 }
 
-/// Points that are not compressed: as many as there are whole records.
-std::uint64_t read_records(ByteReader& in, const LasHeader& header, LasColumns& columns, ScanCounts& counts,
-                           const ReadListener& listener) {
-  in.seek(header.points_offset);
-  const std::uint64_t count =
-      std::min<std::uint64_t>(header.point_count, in.remaining() / header.record_bytes);
+/// Points that are not compressed: `count` from the record `first` on, or as many as there are whole records.
+std::uint64_t read_records(ByteReader& in, const LasHeader& header, std::uint64_t first, std::uint64_t count,
+                           LasColumns& columns, ScanCounts& counts, const ReadListener& listener) {
+  in.seek(0);
+  const std::uint64_t begin = header.points_offset + first * header.record_bytes;
+  if (begin > in.remaining()) return 0;
+  in.seek(begin);
+  count = std::min<std::uint64_t>(count, in.remaining() / header.record_bytes);
   columns.reserve(static_cast<std::size_t>(count));
   const std::size_t most = std::max<std::size_t>(1, ByteReader::BLOCK_BYTES / header.record_bytes);
   for (std::uint64_t done = 0; done < count;) {
-    listener.report(static_cast<double>(done) / static_cast<double>(count));
+    listener.report(static_cast<double>(first + done) / static_cast<double>(header.point_count));
     const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(most, count - done));
     const unsigned char* records = in.take(step * header.record_bytes);
     if (records == nullptr) throw_unreadable(in.path(), "it could not be read to its end");
@@ -135,7 +138,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   if (chosen) file.counts.stored = points_in(*chosen);
   const std::uint64_t found =
       header.is_compressed ? read_laz_points(in, header, vlrs.laszip, chosen, columns, file.counts, listener)
-                           : read_records(in, header, columns, file.counts, listener);
+                           : read_records(in, header, 0, header.point_count, columns, file.counts, listener);
   file.counts.missing = file.counts.stored - found;
   if (file.counts.missing != 0) {
     const std::string sentence = "found " + std::to_string(found) + " whole points, expected the " +
@@ -147,6 +150,43 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   file.points = columns.take();
   file.points.crs = las_crs(vlrs);
   return file;
+}
+
+LasBatches::LasBatches(const std::filesystem::path& path, const ReadOptions& options,
+                       const ReadListener& listener)
+    : in_(path), header_(read_las_header(in_)), vlrs_(read_las_vlrs(in_, header_)), options_(options) {
+  count_points(in_, header_, listener);
+  if (!header_.is_compressed) {
+    for (std::uint64_t first = 0; first < header_.point_count; first += MOST_POINTS)
+      batches_.push_back({first, std::min(MOST_POINTS, header_.point_count - first), {}});
+    return;
+  }
+  const LazLayout layout = read_laz_layout(vlrs_.laszip, header_, path);
+  const std::optional<std::vector<LazChunk>> chunks = find_laz_chunks(in_, header_, layout);
+  if (!chunks)
+    throw_unreadable(
+        path, "found compressed points without a table of their chunks, expected it: the file is cut off");
+  for (const LazChunk& chunk : *chunks) {
+    if (batches_.empty() || batches_.back().count + chunk.points > MOST_POINTS)
+      batches_.push_back({0, 0, {}});
+    batches_.back().count += chunk.points;
+    batches_.back().chunks.push_back(chunk);
+  }
+}
+
+std::string LasBatches::crs() const { return las_crs(vlrs_); }
+std::optional<bool> LasBatches::in_degrees() const { return las_in_degrees(vlrs_); }
+
+Points LasBatches::read(std::size_t i, ScanCounts& counts, const ReadListener& listener) {
+  const Batch& batch = batches_[i];
+  LasColumns columns(header_, wanted_extra_bytes(header_, vlrs_, options_.scans.attributes), options_.scans);
+  const std::uint64_t found =
+      header_.is_compressed
+          ? read_laz_points(in_, header_, vlrs_.laszip, batch.chunks, columns, counts, listener)
+          : read_records(in_, header_, batch.first, batch.count, columns, counts, listener);
+  counts.stored += batch.count;
+  counts.missing += batch.count - std::min(batch.count, found);
+  return columns.take();
 }
 
 }  // namespace splatray

@@ -18,6 +18,7 @@
 #include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/las/read_las.h"
 #include "preprocess/read/tiles/read_json.h"
+#include "preprocess/read/tiles/tile_schema.h"
 
 namespace splatray {
 namespace {
@@ -32,6 +33,7 @@ struct Head {
   double edge = 0.0;  ///< of the root's cube
   std::array<glm::dvec3, 2> box{};
   std::string crs;
+  std::optional<TileSchema> binary;  ///< of tiles that are records alone, else they are LAZ
 };
 
 std::array<glm::dvec3, 2> box_of(const Path& path, const Json& json, const char* name) {
@@ -46,6 +48,17 @@ std::array<glm::dvec3, 2> box_of(const Path& path, const Json& json, const char*
   return {corner(0), corner(3)};
 }
 
+/// One of EPSG's numbers, a text or a number; 0 where there is none.
+unsigned epsg_number(const Json& system, const char* name) {
+  const Json value =
+      system.is_object() && system.value("authority", Json()) == "EPSG" ? system.value(name, Json()) : Json();
+  if (value.is_number_unsigned()) return value.get<unsigned>();
+  const std::string text = value.is_string() ? value.get<std::string>() : "";
+  unsigned number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
 Head read_head(const Path& path) {
   Head head;
   head.json = read_json(path);
@@ -57,11 +70,17 @@ Head read_head(const Path& path) {
   head.box = head.json.contains("boundsConforming") ? box_of(path, head.json, "boundsConforming")
                                                     : std::array{low, high};
   const Json type = head.json.value("dataType", Json());
-  if (type != "laszip")
-    throw_unreadable(path, "found tiles of the type " + type.dump() + ", expected \"laszip\"");
+  if (type == "binary")
+    head.binary = read_tile_schema(head.json.value("schema", Json()), path);
+  else if (type != "laszip")
+    throw_unreadable(path, "found tiles of the type " + type.dump() + R"(, expected "laszip" or "binary")");
   const Json system = head.json.value("srs", Json::object());
   const Json text = system.is_object() ? system.value("wkt", Json()) : Json();
-  if (text.is_string()) head.crs = text.get<std::string>();
+  const unsigned horizontal = epsg_number(system, "horizontal");
+  if (text.is_string())
+    head.crs = text.get<std::string>();
+  else if (horizontal != 0)
+    head.crs = epsg_text(horizontal, epsg_number(system, "vertical"), {});
   return head;
 }
 
@@ -137,12 +156,24 @@ struct Tile {
   std::vector<std::string> notes;
 };
 
-Tile read_tile(const Path& path, const LevelNode& node, const ReadOptions& options) {
-  const Path place = path.parent_path() / "ept-data" / (name_of(node) + ".laz");
+ScanFile read_binary_tile(const Path& path, const TileSchema& schema, const ReadOptions& options) {
+  ByteReader in(path);
+  const std::vector<unsigned char> records = in.read(in.remaining());
+  if (records.size() % schema.record_bytes != 0)
+    throw_unreadable(path, "found " + std::to_string(records.size()) + " bytes, expected whole records of " +
+                               std::to_string(schema.record_bytes));
+  ScanFile file;
+  file.points = points_of_records(records, schema, options.scans, file.counts);
+  return file;
+}
+
+Tile read_tile(const Path& path, const Head& head, const LevelNode& node, const ReadOptions& options) {
+  const Path place = path.parent_path() / "ept-data" / (name_of(node) + (head.binary ? ".bin" : ".laz"));
   const Progress none;
   Tile tile;
   try {
-    tile.file = read_las(place, options, {tile.notes, none});
+    tile.file = head.binary ? read_binary_tile(place, *head.binary, options)
+                            : read_las(place, options, {tile.notes, none});
   } catch (const Error& error) {
     if (options.scans.strict || error.code() != ExitCode::input_unreadable) throw;
     tile.notes.emplace_back(error.what());
@@ -181,8 +212,8 @@ void add(ScanFile& to, Tile&& tile, const ReadListener& listener) {
 }
 
 /// Reads some nodes at a time, each in a thread; all in their order.
-void read_nodes(const Path& path, std::span<const LevelNode> nodes, const ReadOptions& options,
-                const ReadListener& listener, ScanFile& file) {
+void read_nodes(const Path& path, const Head& head, std::span<const LevelNode> nodes,
+                const ReadOptions& options, const ReadListener& listener, ScanFile& file) {
   const std::size_t at_once =
       2 * tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   for (std::size_t done = 0; done < nodes.size(); done += at_once) {
@@ -190,13 +221,40 @@ void read_nodes(const Path& path, std::span<const LevelNode> nodes, const ReadOp
     const std::span<const LevelNode> some = nodes.subspan(done, std::min(at_once, nodes.size() - done));
     std::vector<Tile> tiles(some.size());
     tbb::parallel_for(std::size_t{0}, some.size(),
-                      [&](std::size_t i) { tiles[i] = read_tile(path, some[i], options); });
+                      [&](std::size_t i) { tiles[i] = read_tile(path, head, some[i], options); });
     for (Tile& tile : tiles) add(file, std::move(tile), listener);
     listener.show(file.points);
   }
 }
 
+/// Points of stations that there are none of have unknown ones: all are left out.
+void check_stations(Points& points) {
+  const bool is_whole = std::all_of(points.station.begin(), points.station.end(),
+                                    [&](std::uint16_t station) { return station < points.stations.size(); });
+  if (is_whole) return;
+  points.station.clear();
+  points.stations.clear();
+}
+
 }  // namespace
+
+std::vector<Station> read_stations(const Json& stations, const Path& path) {
+  std::vector<Station> read;
+  for (const Json& entry : stations) {
+    const Json name = entry.is_object() ? entry.value("name", Json()) : Json();
+    const Json place = entry.is_object() ? entry.value("sensor", Json()) : Json();
+    const bool has_place = place.is_array() && place.size() == 3 && place[0].is_number() &&
+                           place[1].is_number() && place[2].is_number();
+    if (!name.is_string() || !(has_place || place.is_null()))
+      throw_unreadable(path,
+                       "found among its stations " + entry.dump() + ", expected a name and a sensor's place");
+    read.push_back({});
+    read.back().name = name.get<std::string>();
+    if (has_place)
+      read.back().sensor_world = {place[0].get<double>(), place[1].get<double>(), place[2].get<double>()};
+  }
+  return read;
+}
 
 Levels ept_levels(const Path& path) {
   const Head head = read_head(path);
@@ -212,9 +270,12 @@ ScanFile read_ept(const Path& path, const ReadOptions& options, const ReadListen
   add_level_facts(levels, "EPT", file.facts);
   file.said_box = head.box;
   file.points.crs = head.crs;
+  const Json stations = head.json.value("stations", Json::array());
+  if (head.binary && !stations.empty()) file.points.stations = read_stations(stations, path);
   file.counts.stored = options.heads_only ? levels.points() : 0;
   if (!options.heads_only)
-    read_nodes(path, chosen_nodes(path, levels, options.nodes), options, listener, file);
+    read_nodes(path, head, chosen_nodes(path, levels, options.nodes), options, listener, file);
+  check_stations(file.points);
   return file;
 }
 

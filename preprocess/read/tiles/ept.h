@@ -1,7 +1,9 @@
 /// Entwine point tiles: a scan as an octree whose nodes are files (Hobu and Manning, Entwine Point Tile 1.0, 2019).
 #pragma once
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "preprocess/base/levels.h"
 #include "preprocess/points.h"
@@ -14,9 +16,15 @@ namespace splatray {
 /// below 0, pages that are missing.
 [[nodiscard]] Levels ept_levels(const std::filesystem::path& path);
 
-/// Reads the points of an `ept.json`, node by node as read_las does; tiles are LAZ. A tile that is missing or damaged gives what is whole,
+/// Reads the points of an `ept.json`, node by node as read_las does; tiles are LAZ, or records of
+/// the file's schema ("binary"). A tile that is missing or damaged gives what is whole,
 /// with a note, or is refused when options.scans.strict. Throws Error (input_unreadable), one sentence.
 [[nodiscard]] ScanFile read_ept(const std::filesystem::path& path, const ReadOptions& options,
                                 const ReadListener& listener);
+
+/// Where scanners stood: names and places of the member "stations" that splatray-preprocess writes beside EPT's own. Throws Error
+/// (input_unreadable), one sentence, for others.
+[[nodiscard]] std::vector<Station> read_stations(const nlohmann::json& stations,
+                                                 const std::filesystem::path& path);
 
 }  // namespace splatray

@@ -1,0 +1,63 @@
+/// Records of points as binary tiles hold them (Entwine Point Tile 1.0, "schema" and the data type "binary").
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "preprocess/points.h"
+
+namespace splatray {
+
+/// One number of a record: value = scale * number + offset.
+struct TileField {
+  enum class Kind : std::uint8_t { signed_integer, unsigned_integer, floating };
+
+  std::string name;  ///< as PDAL names dimensions: X, Y, Z, Intensity, Red, NormalX, or any other
+  Kind kind = Kind::unsigned_integer;
+  std::size_t bytes = 0;  ///< 1, 2, 4 or 8
+  double scale = 1.0, offset = 0.0;
+  std::size_t at = 0;  ///< bytes from the record's begin
+
+  [[nodiscard]] double value(const unsigned char* record) const;
+  /// Stores the nearest number that the field holds.
+  void store(double value, unsigned char* record) const;
+};
+
+struct TileSchema {
+  std::vector<TileField> fields;
+  std::size_t record_bytes = 0;
+
+  /// Appends a field behind the others.
+  void add(TileField field);
+  /// nullptr where there is none of this name.
+  [[nodiscard]] const TileField* find(std::string_view name) const;
+  /// A record's position.
+  [[nodiscard]] glm::dvec3 position(const unsigned char* record) const;
+};
+
+/// Reads the member "schema" of the ept.json at `path`. Throws Error (input_unreadable), one sentence, for numbers of other sizes, and
+/// where X, Y or Z is missing.
+[[nodiscard]] TileSchema read_tile_schema(const nlohmann::json& schema, const std::filesystem::path& path);
+[[nodiscard]] nlohmann::json tile_schema_json(const TileSchema& schema);
+
+/// The fields that hold what points have, columns under PDAL's names or their own. Positions are integers in steps of `step_world` from
+/// `origin_world` on, or, where that is zero, float64.
+[[nodiscard]] TileSchema tile_schema_of(const Points& points, const glm::dvec3& step_world,
+                                        const glm::dvec3& origin_world);
+/// Appends those that `more` has and `schema` lacks; of those that both have the wider stays.
+void widen_schema(TileSchema& schema, const TileSchema& more);
+
+/// Appends the points' records; what points lack is 0. The first of their stations has the number `first_station`.
+void append_records(const Points& points, const TileSchema& schema, std::size_t first_station,
+                    std::vector<unsigned char>& records);
+
+/// The points of whole records, with those other fields that `options.attributes` names. Points of the classes of noise (7, 18) and
+/// withheld ones are left out, and counted, unless options keep them. Points::station is what the field "Station" says.
+[[nodiscard]] Points points_of_records(std::span<const unsigned char> records, const TileSchema& schema,
+                                       const ScanOptions& options, ScanCounts& counts);
+
+}  // namespace splatray
