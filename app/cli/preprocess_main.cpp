@@ -23,6 +23,7 @@
 #include "preprocess/base/file_extension.h"
 #include "preprocess/build.h"
 #include "preprocess/build_report.h"
+#include "preprocess/levels/write_levels.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/write/left_out.h"
 #include "preprocess/write/write_points.h"
@@ -35,6 +36,7 @@ struct Options {
   Request request;
   bool keep_dropped = false;
   std::filesystem::path change_from;  ///< empty = no comparison
+  std::string step;                   ///< of levels; empty = all
   std::vector<std::string> notes;
 };
 
@@ -49,9 +51,9 @@ bool parse(int argc, char** argv, Options& options) {
   list.set_group(group_title(FieldGroup::files));
   add_path(list, "-o,--output", request.output.path,
            "scene file to write (.soct), or its points with normals, radii and attributes (.ply, .las, .csv, "
-           ".vtp)");
+           ".vtp), or FOLDER/ept.json: the points as they are, in levels, of scans of any size");
   list.require("--output");
-  list.set_brief("--output", "a scene (.soct), or points: .ply, .las, .csv, .vtp");
+  list.set_brief("--output", "a scene (.soct), points (.ply, .las, .csv, .vtp), levels (ept.json)");
   list.add_switch(
       "--keep-dropped", options.keep_dropped,
       "with -o of points: those that the scene leaves out are written too, as class 7 (low noise)");
@@ -59,6 +61,10 @@ bool parse(int argc, char** argv, Options& options) {
       list, "--change-from", options.change_from,
       "an earlier scan or scene, or a mesh: adds the attribute change, how far each point lies before (+) or "
       "behind (-) its surface");
+  add_text(
+      list, "--step", options.step,
+      "with -o of levels, for several machines: divide, then a share of the parts such as 2/16 for each of "
+      "them, then join");
   list.set_brief("--attributes", "further attributes to keep: extra bytes, columns");
   list.set_brief("--keep-withheld", "keep points marked as deleted or as noise");
   list.set_brief("--smooth", "how noise is smoothed; default as it asks for");
@@ -67,11 +73,16 @@ bool parse(int argc, char** argv, Options& options) {
   list.set_examples(
       {{"splatray-preprocess survey.laz -o survey.soct", "read once, show as often as you like"},
        {"splatray-preprocess rooms/*.e57 -o rooms.soct", "several scans in one scene"},
-       {"splatray-preprocess survey.laz -o clean.las", "its cleaned points, with normals and radii"}});
+       {"splatray-preprocess survey.laz -o clean.las", "its cleaned points, with normals and radii"},
+       {"splatray-preprocess country/ -o levels/ept.json", "more points than memory holds, in levels"}});
   if (!list.parse(argc, argv)) return false;
   assign(request, given, DOOR_PREPROCESS);
   options.notes = given.notes;
-  if (options.keep_dropped && !is_point_output(request.output.path))
+  if (!options.step.empty() && !is_levels_output(request.output.path))
+    throw Error(ExitCode::usage,
+                "found --step with '" + request.output.path.string() + "', expected -o with an ept.json");
+  if (options.keep_dropped &&
+      (is_levels_output(request.output.path) || !is_point_output(request.output.path)))
     throw Error(ExitCode::usage, "found --keep-dropped with '" + request.output.path.string() +
                                      "', expected -o with a .ply, .las, .csv or .vtp");
   return true;
@@ -162,11 +173,50 @@ void convert(const Options& options, const Progress& progress, ProgressLine& lin
   write(scene, {}, options.request.output.path, progress);
 }
 
+/// What of a request levels follow: they hold points as they are.
+Request::Source kept_by_levels(const Request::Source& source) {
+  Request::Source kept;
+  kept.inputs = source.inputs;
+  kept.threads = source.threads;
+  kept.scans.strict = source.scans.strict;
+  kept.scans.ignore_checksums = source.scans.ignore_checksums;
+  kept.scans.keep_withheld = source.scans.keep_withheld;
+  kept.scans.columns = source.scans.columns;
+  kept.scans.attributes = source.scans.attributes;
+  return kept;
+}
+
+/// Writes the inputs as levels.
+int make_levels(const Options& options) {
+  const Request::Source& source = options.request.source;
+  const std::filesystem::path& output = options.request.output.path;
+  if (!(kept_by_levels(source) == source) || !options.change_from.empty())
+    throw Error(ExitCode::usage,
+                "found options of scenes with '" + output.string() +
+                    "', expected those of reading alone: what points become is chosen when levels are shown");
+  const LevelSteps steps = options.step.empty() ? LevelSteps{} : level_steps(options.step);
+  catch_interrupts();
+  ProgressLine line(/*quiet=*/false, ProgressStyle::line,
+                    {{"counting", 2}, {"dividing", 3}, {"building", 4}, {"joining", 1}});
+  const Progress progress = watching_memory([&](const char* stage, double share) {
+    line.show(stage, share);
+    return !interrupted();
+  });
+  const LevelsMade made = write_levels(source.inputs, read_options(source, progress), steps, output);
+  line.clear();
+  print_notes(made.notes);
+  std::printf("%llu points in %zu parts", static_cast<unsigned long long>(made.points), made.parts);
+  if (made.nodes > 0) std::printf(", %zu nodes -> %s", made.nodes, output.string().c_str());
+  std::printf("\n");
+  return static_cast<int>(ExitCode::done);
+}
+
 int run(int argc, char** argv) {
   Options options;
   if (!parse(argc, argv, options)) return static_cast<int>(ExitCode::done);
   print_notes(options.notes);
   const Request::Output& output = options.request.output;
+  if (is_levels_output(output.path)) return make_levels(options);
   const bool is_new = is_point_output(output.path) || !options.change_from.empty();
   note_inputs(options.request);
   note_input(options.change_from);

@@ -1,6 +1,7 @@
 /// splatray-preprocess -o of points: what its users meet.
 #include <fstream>
 
+#include "engine/base/error.h"
 #include "engine/file/scene_file.h"
 #include "tests/cli/child_process.h"
 #include "tests/format/same_scene.h"
@@ -56,6 +57,35 @@ TEST_F(CliExport, WhatCannotBeIsRefused) {
     expect_refused([&] { return to(file(name)); }, 2, "expected .soct, or .ply, .las, .csv or .vtp");
   expect_refused([&] { return to(file("a.soct"), {"--keep-dropped"}); }, 2, "found --keep-dropped");
   EXPECT_EQ(to(file("kept.las"), {"--keep-dropped"}).code, 0);
+}
+
+class CliLevels : public CliTest {};
+
+TEST_F(CliLevels, AreWrittenAndListed) {
+  const ChildResult made = preprocess({write("a.ply", grid_ply(false)), "-o", file("levels/ept.json")});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("144 points in 1 parts, 1 nodes"), std::string::npos) << made.out;
+  const ChildResult listed = run_program({INFO, file("levels/ept.json")});
+  EXPECT_NE(listed.out.find("1 nodes, points by level 144"), std::string::npos) << listed.out;
+  EXPECT_EQ(preprocess({file("levels"), "-o", file("scene.soct")}).code, 0);
+}
+
+TEST_F(CliLevels, FollowNoOptionsOfScenesAndReplaceNothing) {
+  const std::string scan = write("a.ply", grid_ply(false)),
+                    mesh = write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto refused = [&](std::vector<std::string> more, ExitCode code, const std::string& words) {
+    expect_refused([&] { return preprocess(std::move(more)); }, static_cast<int>(code), words);
+  };
+  const std::string levels = file("levels/ept.json");
+  refused({scan, "-o", levels, "--smooth", "off"}, ExitCode::usage, "options of scenes");
+  refused({scan, "-o", levels, "--change-from", scan}, ExitCode::usage, "options of scenes");
+  refused({scan, "-o", levels, "--keep-dropped"}, ExitCode::usage, "--keep-dropped");
+  refused({scan, "-o", levels, "--step", "half"}, ExitCode::usage, "step 'half'");
+  refused({scan, "-o", levels, "--step", "join"}, ExitCode::usage, "'divide'");
+  refused({scan, "-o", file("a.soct"), "--step", "join"}, ExitCode::usage, "expected -o with an ept.json");
+  refused({mesh, "-o", levels}, ExitCode::input_unreadable, "found a mesh");
+  EXPECT_EQ(preprocess({scan, "-o", levels}).code, 0);
+  refused({scan, "-o", levels}, ExitCode::usage, "found a scan in levels there");
 }
 
 }  // namespace
