@@ -1,6 +1,7 @@
 """large.py TOWN.copc.laz --bin BIN -o FILE.md: what pictures of a large scan take, and which are the same pixels (tests/bench/large)."""
 
 import argparse
+import hashlib
 import os
 import pathlib
 import re
@@ -14,6 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "remote"))
 from make_town import places  # noqa: E402
 from serve import Server  # noqa: E402
 
+KILLS = 20
 READ = re.compile(r"read (\d+) of (\d+) points")
 
 
@@ -43,6 +45,11 @@ def pixels_of(picture):
             pixels += data[at + 8:at + 8 + length]
         at += 12 + length
     return zlib.decompress(pixels)
+
+
+def digests_of(folder):
+    """What each file below a folder holds."""
+    return {path.relative_to(folder): hashlib.md5(path.read_bytes()).hexdigest() for path in folder.rglob("*") if path.is_file()}
 
 
 class Table:
@@ -88,6 +95,26 @@ class Table:
             differ = sum(a != b for a, b in zip(truth, other)) if len(truth) == len(other) else len(truth)
             self.lines.append(f"| {name} | {differ} bytes |")
 
+    def levels(self):
+        """Levels of one's own, as of a file that has none; then the same from runs that are killed, each later than the last."""
+        whole, killed = self.work / "levels", self.work / "killed"
+        run = Run([self.programs / "splatray-preprocess", self.town, "-o", whole / "ept.json"])
+        points, nodes = (int(word) for word in re.search(r"^(\d+) points.* (\d+) nodes", run.said, re.MULTILINE).groups())
+        self.lines += ["", "| levels of one's own (`splatray-preprocess -o ept.json`) | |", "| --- | --- |",
+                       f"| points; nodes | {points}; {nodes} |", f"| seconds; CPU s; peak MB | {run.seconds:.0f}; {run.cpu_s:.0f}; {run.peak_bytes / 1e6:.0f} |"]
+        kills = 0
+        while not (killed / "ept.json").exists():
+            process = subprocess.Popen([self.programs / "splatray-preprocess", self.town, "-o", killed / "ept.json"], stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            try:
+                process.wait(run.seconds * (0.05 + 0.05 * kills) if kills < KILLS else None)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+                kills += 1
+        differ = sum(digest != digests_of(killed).get(name) for name, digest in digests_of(whole).items())
+        self.lines.append(f"| killed {kills} times and resumed | {differ} of {len(digests_of(whole))} files differ |")
+
     def merged(self, options):
         tiles = [self.render("above", f"tile{i}.exr", *options, "--tile", f"{i}/2")[1] for i in (1, 2)]
         picture = self.work / "merged.png"
@@ -106,6 +133,7 @@ def main():
         table = Table(asked.town, asked.bin, asked.memory, pathlib.Path(work))
         table.speed()
         table.same_pixels()
+        table.levels()
     asked.o.write_text("\n".join(table.lines) + "\n")
     print("\n".join(table.lines))
 
