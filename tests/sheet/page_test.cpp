@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "app/library/sheet/sheet_files.h"
 #include "app/library/sheet/sheet_page.h"
@@ -39,8 +40,14 @@ bool crosses(const DrawnLine& line, const TextBox& box) {
 std::vector<std::string> findings(const Drawing& page) {
   std::vector<std::string> found;
   const TextBox paper{{0.0, 0.0}, page.size};
-  const TextBox picture{page.raster.corner, page.raster.corner + page.raster.size};
-  if (!paper.holds(picture)) found.emplace_back("the picture leaves the page");
+  std::vector<TextBox> pictures;
+  for (const DrawnRaster& raster : page.rasters) {
+    const TextBox picture{raster.corner, raster.corner + raster.size};
+    if (!paper.holds(picture)) found.emplace_back("a picture leaves the page");
+    for (const TextBox& other : pictures)
+      if (picture.meets(other)) found.emplace_back("a picture covers another");
+    pictures.push_back(picture);
+  }
   std::vector<TextBox> boxes;
   for (const DrawnText& text : page.texts) boxes.push_back(text_box(text));
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -48,8 +55,10 @@ std::vector<std::string> findings(const Drawing& page) {
     if (!paper.holds(boxes[i])) found.push_back("'" + text + "' leaves the page");
     for (std::size_t j = 0; j < i; ++j)
       if (boxes[i].meets(boxes[j])) found.push_back("'" + text + "' covers '" + page.texts[j].text + "'");
-    if (picture.holds(boxes[i])) continue;
-    if (boxes[i].meets(picture)) found.push_back("'" + text + "' covers the picture's border");
+    const auto holds = [&box = boxes[i]](const TextBox& picture) { return picture.holds(box); };
+    if (std::any_of(pictures.begin(), pictures.end(), holds)) continue;
+    for (const TextBox& picture : pictures)
+      if (boxes[i].meets(picture)) found.push_back("'" + text + "' covers a picture's border");
     for (const DrawnLine& line : page.lines)
       if (crosses(line, boxes[i])) found.push_back("a line crosses '" + text + "'");
   }
@@ -101,6 +110,27 @@ class Chance {
     return sheet;
   }
 
+  /// Views in the first one's scale, or floors of its size.
+  SheetSet set() {
+    SheetSet set{{sheet()}, below(3) == 0};
+    const Sheet first = set.sheets[0];
+    for (int i = below(5); i >= 0; --i) {
+      Sheet other = sheet();
+      const SheetRequest own = std::exchange(other.asked, first.asked);
+      other.asked.kind = own.kind;
+      other.asked.place = own.place;
+      other.unit_metres = first.unit_metres;
+      other.pixel_world = first.pixel_world;
+      const double most = set.is_atlas ? 1.0 : between(0.1, 1.0);
+      other.width = static_cast<std::uint32_t>(most * first.width) + 1;
+      other.height = static_cast<std::uint32_t>(most * first.height) + 1;
+      set.sheets.push_back(other);
+    }
+    for (std::size_t i = 0; set.is_atlas && i < set.sheets.size(); ++i)
+      set.sheets[i].floor = 1234.5 * static_cast<double>(i);
+    return set;
+  }
+
   PageWords words() { return {text(), {text(), text(), text(), text(), text(), text()}}; }
 
   /// Distances on the sheet, many of them near each other.
@@ -143,6 +173,16 @@ TEST(SheetPage, HasNothingThatCoversOrLeavesAnything) {
   EXPECT_GT(words, 50U * 20U);
 }
 
+TEST(SheetPage, OfSeveralSheetsHasNothingThatCoversOrLeavesAnything) {
+  Chance chance(12);
+  for (int i = 0; i < 50; ++i) {
+    const SheetSet set = chance.set();
+    const std::vector<Drawing> pages = sheet_pages(set, chance.words(), chance.measures(set.sheets[0]));
+    EXPECT_EQ(pages.size(), set.is_atlas ? set.sheets.size() : 1U);
+    for (const Drawing& page : pages) EXPECT_EQ(findings(page), std::vector<std::string>{}) << "set " << i;
+  }
+}
+
 TEST(SheetPage, IsFoundFaultWithWhereSomethingIsMoved) {
   const Sheet sheet = make_sheet(ball(), with_sheet("plan:scale=20,dpi=100"));
   const Drawing page = page_of(sheet);
@@ -163,7 +203,7 @@ TEST(SheetPage, IsFoundFaultWithWhereSomethingIsMoved) {
 TEST(SheetPage, HasItsPictureAtScaleAndWordsAroundIt) {
   const Sheet sheet = make_sheet(ball(), with_sheet("plan:scale=20,dpi=100"));
   const Drawing page = page_of(sheet, {"Ball", {"Town hall", "A-101", "2 of 7", "b", "NN", "2026-11-28"}});
-  EXPECT_DOUBLE_EQ(page.raster.size.x, sheet.width * 25.4 / 100.0);
+  EXPECT_DOUBLE_EQ(page.rasters.front().size.x, sheet.width * 25.4 / 100.0);
   for (const char* text : {"Ball", "1 : 20", "N", "500000", "5000000", "Town hall", "A-101", "2 of 7", "b",
                            "NN", "2026-11-28", "Project", "Revision", "A4"})
     EXPECT_TRUE(has(page, text)) << text;

@@ -29,7 +29,9 @@ TEST(SheetText, IsReadAndWrittenAlike) {
   for (const char* text :
        {"plan", "plan:z=1.2,depth=1.4,scale=20,dpi=150", "section:0,1,2.5,1,depth=3",
         "elevation:180,weight=0", "ortho:1,1,-1,unit=0.3048", "plan:paper=A3",
-        "section:0,1,2.5,1,paper=A0,landscape", "plan:portrait", "plan:z=1,hatch=0", "plan:z=1,hatch=3"}) {
+        "section:0,1,2.5,1,paper=A0,landscape", "plan:portrait", "plan:z=1,hatch=0", "plan:z=1,hatch=3",
+        "atlas", "atlas:above=1,depth=2,scale=100,paper=A3",
+        "plan:z=1,scale=20,dpi=100,paper=A2,landscape;section:0,1,2.5,1,depth=3;plan;elevation:90"}) {
     EXPECT_EQ(sheet_text(read_sheet(text)), text);
   }
   EXPECT_EQ(sheet_text(read_sheet("elevation:south,unit=ft")), "elevation:180,unit=0.3048");
@@ -58,6 +60,14 @@ TEST(SheetText, OfAnythingElseIsRefused) {
                            "plan:paper=A5",
                            "plan:paper=",
                            "plan:sideways",
+                           "atlas:z=1",
+                           "plan:above=1",
+                           "atlas;plan",
+                           "plan;atlas",
+                           "plan;",
+                           "plan;section",
+                           "plan;elevation:south,scale=20",
+                           "plan;elevation:south,portrait",
                            "plan:"})
     EXPECT_THROW((void)with_sheet(text), Error) << text;
 }

@@ -106,7 +106,7 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
     const std::shared_ptr<Scene::Impl> impl = scene_for(SceneAccess::impl(scene), inner, relay);
     Resolved resolved = resolve_for(*impl, inner);
     Shot& shot = resolved.shot;
-    if (shot.is_sequence() || shot.is_orbit())
+    if (shot.is_sequence() || shot.is_orbit() || shot.sheet_set() != nullptr)
       refuse("a sequence of pictures or a page", "one picture; make() writes the others");
     require_memory(2 * made_image_bytes(shot), "a picture of " + std::to_string(shot.view.width) + "x" +
                                                    std::to_string(shot.view.height) + " pixels");

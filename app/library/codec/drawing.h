@@ -1,4 +1,4 @@
-/// A page of lines, letters and one raster, or a part of one, in millimetres from its top left corner, x to the right, y down. It is
+/// A page of lines, letters and rasters, or a part of one, in millimetres from its top left corner, x to the right, y down. It is
 /// drawn in the order of its members.
 #pragma once
 #include <cstdint>
@@ -19,7 +19,7 @@ struct DrawnBox {
   glm::vec3 fill{0.0F};  ///< sRGB, 0 to 1
 };
 
-/// Lines from point to point on the raster, cut off at its border.
+/// Lines from point to point.
 struct DrawnPath {
   std::vector<glm::dvec2> points;
   bool closed = false;
@@ -42,18 +42,18 @@ struct TextExtents {
   double ascent = 0.0, descent = 0.0;  ///< of the font, above and below the base line
 };
 
-/// Pixels, top row first, four bytes each: sRGB that alpha is not multiplied into, and alpha.
+/// Pixels, top row first, four bytes each: sRGB that alpha is not multiplied into, and alpha; and lines on them.
 struct DrawnRaster {
   glm::dvec2 corner{0.0}, size{0.0};
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
+  std::vector<DrawnPath> paths;  ///< places of the page, cut off at the raster's border
 };
 
 struct Drawing {
   glm::dvec2 size{0.0};
   std::string title;  ///< of the document
-  DrawnRaster raster;
-  std::vector<DrawnPath> paths;
+  std::vector<DrawnRaster> rasters;
   std::vector<DrawnLine> lines;
   std::vector<DrawnBox> boxes;
   std::vector<DrawnText> texts;

@@ -120,12 +120,11 @@ void draw_text(cairo_t* cairo, const DrawnText& text) {
   cairo_restore(cairo);
 }
 
-void draw_paths(cairo_t* cairo, const Drawing& drawing) {
+void draw_paths(cairo_t* cairo, const DrawnRaster& raster) {
   cairo_save(cairo);
-  cairo_rectangle(cairo, drawing.raster.corner.x, drawing.raster.corner.y, drawing.raster.size.x,
-                  drawing.raster.size.y);
+  cairo_rectangle(cairo, raster.corner.x, raster.corner.y, raster.size.x, raster.size.y);
   cairo_clip(cairo);
-  for (const DrawnPath& path : drawing.paths) {
+  for (const DrawnPath& path : raster.paths) {
     cairo_set_line_width(cairo, path.width_mm);
     for (const glm::dvec2& point : path.points) cairo_line_to(cairo, point.x, point.y);
     if (path.closed) cairo_close_path(cairo);
@@ -138,9 +137,10 @@ void draw_paths(cairo_t* cairo, const Drawing& drawing) {
 void draw_shapes(cairo_t* cairo, const Drawing& drawing) {
   cairo_set_source_rgb(cairo, 1.0, 1.0, 1.0);
   cairo_paint(cairo);
-  if (drawing.raster.width > 0) draw_raster(cairo, drawing.raster);
+  for (const DrawnRaster& raster : drawing.rasters)
+    if (raster.width > 0) draw_raster(cairo, raster);
   cairo_set_source_rgb(cairo, 0.0, 0.0, 0.0);
-  draw_paths(cairo, drawing);
+  for (const DrawnRaster& raster : drawing.rasters) draw_paths(cairo, raster);
   for (const DrawnLine& line : drawing.lines) {
     cairo_set_line_width(cairo, line.width_mm);
     cairo_move_to(cairo, line.from.x, line.from.y);
@@ -186,27 +186,34 @@ void add_svg_texts(const Drawing& drawing, Bytes& bytes) {
   bytes.assign(svg.begin(), svg.end());
 }
 
-bool encode_drawing(const Drawing& drawing, const std::string& format, Bytes& bytes, std::string& error) {
-  const glm::dvec2 points = drawing.size * POINTS_PER_MM;
-  cairo_surface_t* surface = nullptr;
-  if (format == "pdf") {
-    surface = cairo_pdf_surface_create_for_stream(append, &bytes, points.x, points.y);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, drawing.title.c_str());
-  } else {
-    surface = cairo_svg_surface_create_for_stream(append, &bytes, points.x, points.y);
-  }
+cairo_surface_t* surface_for(const Drawing& page, const std::string& format, Bytes& bytes) {
+  const glm::dvec2 points = page.size * POINTS_PER_MM;
+  if (format == "svg") return cairo_svg_surface_create_for_stream(append, &bytes, points.x, points.y);
+  cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append, &bytes, points.x, points.y);
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, page.title.c_str());
+  return surface;
+}
+
+bool encode_pages(const std::vector<Drawing>& pages, const std::string& format, Bytes& bytes,
+                  std::string& error) {
+  cairo_surface_t* surface = surface_for(pages.front(), format, bytes);
   cairo_t* cairo = cairo_create(surface);
   cairo_scale(cairo, POINTS_PER_MM, POINTS_PER_MM);
-  draw_shapes(cairo, drawing);
-  if (format == "pdf")
-    for (const DrawnText& text : drawing.texts) draw_text(cairo, text);
+  for (const Drawing& page : pages) {
+    if (format == "pdf")
+      cairo_pdf_surface_set_size(surface, page.size.x * POINTS_PER_MM, page.size.y * POINTS_PER_MM);
+    draw_shapes(cairo, page);
+    if (format != "pdf") continue;
+    for (const DrawnText& text : page.texts) draw_text(cairo, text);
+    cairo_show_page(cairo);
+  }
   cairo_status_t status = cairo_status(cairo);
   cairo_destroy(cairo);
   cairo_surface_finish(surface);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   if (status != CAIRO_STATUS_SUCCESS) error = cairo_status_to_string(status);
-  if (status == CAIRO_STATUS_SUCCESS && format == "svg") add_svg_texts(drawing, bytes);
+  if (status == CAIRO_STATUS_SUCCESS && format == "svg") add_svg_texts(pages.front(), bytes);
   return status == CAIRO_STATUS_SUCCESS;
 }
 
@@ -310,7 +317,7 @@ bool encode_tiff(const GeoRaster& raster, const GeoTags& tags, Bytes& bytes, std
 }  // namespace splatray
 
 extern "C" __attribute__((visibility("default"))) const splatray::SheetCodec* splatray_sheet_codec() {
-  static const splatray::SheetCodec codec{splatray::encode_drawing, splatray::text_extents,
+  static const splatray::SheetCodec codec{splatray::encode_pages, splatray::text_extents,
                                           splatray::encode_tiff};
   return &codec;
 }

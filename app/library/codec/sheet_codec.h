@@ -10,10 +10,10 @@
 namespace splatray {
 
 struct SheetCodec {
-  /// The bytes of a drawing, "svg" or "pdf".
-  bool (*encode_drawing)(const Drawing& drawing, const std::string& format, std::vector<unsigned char>& bytes,
-                         std::string& error);
-  /// What encode_drawing takes for a text of this size, mm.
+  /// The bytes of a page, "svg", or of one or more, "pdf", which has the first one's title.
+  bool (*encode_pages)(const std::vector<Drawing>& pages, const std::string& format,
+                       std::vector<unsigned char>& bytes, std::string& error);
+  /// What encode_pages takes for a text of this size, mm.
   TextExtents (*text_extents)(const std::string& text, double size_mm);
   /// The bytes of a raster, with further tags of GeoTIFF.
   bool (*encode_tiff)(const GeoRaster& raster, const GeoTags& tags, std::vector<unsigned char>& bytes,

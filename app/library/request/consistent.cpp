@@ -120,14 +120,27 @@ struct Format {
   Names extensions;
 };
 
+/// Several sheets in one file have no pixels that a part, or a file beside it, could be of.
+void check_sheet_set(const Request& request) {
+  if (!request.view.sheet || !request.view.sheet->is_set()) return;
+  for (const FieldText& value : changed_values(request))
+    for (const char* single : {"crop", "tile", "height-raster", "reference", "resume", "sample-offset"})
+      if (value.name == single)
+        fail("found --" + value.name + " and several sheets of --sheet, expected one of them");
+}
+
 void check_format(const Request& request) {
   const Request::Output& output = request.output;
+  const std::optional<SheetRequest>& sheet = request.view.sheet;
+  const bool is_atlas = sheet && sheet->kind == SheetKind::atlas;
   if (output.path.empty()) return;
   if (!output.film.empty() && !output.many())
     fail("found output '" + output.film.string() +
          "' of a single picture, expected --turntable or --camera-path");
   const std::string extension = lower_extension(output.path);
   const std::array formats = {
+      Format{is_atlas, " with an atlas, which has several pages", {".pdf", ".dxf"}},
+      Format{sheet && sheet->is_set(), " with several views", {".svg", ".pdf", ".dxf"}},
       Format{output.orbit_columns > 0, " with --orbit", {".html"}},
       Format{!output.measures.empty(), " with --measures", {".svg", ".pdf", ".dxf"}},
       Format{
@@ -176,6 +189,7 @@ void require_part_of(const Request::View& view, std::uint32_t width, std::uint32
 void require_consistent(const Request& request) {
   check_format(request);
   check_fields(request);
+  check_sheet_set(request);
   check_size(request);
   check_noise(request);
   check_sample_range(request);

@@ -23,9 +23,15 @@ bool is_index(const Sheet& sheet, const Contour& contour) {
   return std::llround(contour.height / *sheet.asked.contours) % INDEX_EVERY == 0;
 }
 
+/// Decimals of heights of levels, which are a centimetre's.
+int digits_of_levels(const Sheet& sheet) {
+  const double digits = std::ceil(-std::log10(LEVEL_DIGITS_METRES / sheet.unit_metres) - 1e-9);
+  return std::max(static_cast<int>(digits), 0);
+}
+
 /// Writes a contour's height on the first of its points where that covers nothing, from the middle on.
 void add_contour_label(const Sheet& sheet, const Contour& contour, const DrawnPath& path, Drawing& view) {
-  const TextBox picture{view.raster.corner, view.raster.corner + view.raster.size};
+  const TextBox picture{view.rasters.front().corner, view.rasters.front().corner + view.rasters.front().size};
   const std::size_t count = path.points.size();
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec2& at = path.points[(count / 2 + i) % count];
@@ -59,10 +65,12 @@ std::string contour_text(const Sheet& sheet, const Contour& contour) {
 }
 
 std::string level_text(const Sheet& sheet, double height) {
-  const double level = height - sheet.asked.level.value_or(0.0);
-  const double digits = std::ceil(-std::log10(LEVEL_DIGITS_METRES / sheet.unit_metres) - 1e-9);
-  const std::string text = rounded_text(level, std::max(static_cast<int>(digits), 0));
+  const std::string text = rounded_text(height - sheet.asked.level.value_or(0.0), digits_of_levels(sheet));
   return text.starts_with('-') ? text : "+" + text;
+}
+
+std::string height_text(const Sheet& sheet, double height) {
+  return rounded_text(height, digits_of_levels(sheet)) + " " + length_symbol(sheet.unit_metres);
 }
 
 bool is_upright_sheet(const Sheet& sheet) {
@@ -72,35 +80,37 @@ bool is_upright_sheet(const Sheet& sheet) {
 
 void draw_contours(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
   std::map<double, std::size_t> longest;  // contour of each height with the most points, by its path
+  std::vector<DrawnPath>& paths = view.rasters.front().paths;
   for (const Contour& contour : sheet.contours) {
     DrawnPath path{{}, contour.curve.closed, contour_width_mm(sheet, contour)};
     for (const glm::dvec2& point : contour.curve.points)
-      path.points.push_back(view.raster.corner + in_window(sheet, window, point));
-    std::size_t& best = longest.emplace(contour.height, view.paths.size()).first->second;
-    if (best < view.paths.size() && view.paths[best].points.size() < path.points.size())
-      best = view.paths.size();
-    view.paths.push_back(std::move(path));
+      path.points.push_back(view.rasters.front().corner + in_window(sheet, window, point));
+    std::size_t& best = longest.emplace(contour.height, paths.size()).first->second;
+    if (best < paths.size() && paths[best].points.size() < path.points.size()) best = paths.size();
+    paths.push_back(std::move(path));
   }
   const bool few = longest.size() <= 2 * INDEX_EVERY;
   for (const auto& [height, path] : longest) {
     const Contour contour{height, {}};
-    if (few || is_index(sheet, contour)) add_contour_label(sheet, contour, view.paths[path], view);
+    if (few || is_index(sheet, contour)) add_contour_label(sheet, contour, paths[path], view);
   }
 }
 
 void draw_levels(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
   if (sheet.levels.empty() || !is_upright_sheet(sheet)) return;
-  const double begin = view.raster.corner.x + view.raster.size.x + MARK_BESIDE;
+  const double begin = view.rasters.front().corner.x + view.rasters.front().size.x + MARK_BESIDE;
   const double text_begin = begin + MARK_TRIANGLE + MARK_END;
-  double free_above = view.raster.corner.y + view.raster.size.y;  // texts of lower levels are below it
+  double free_above =
+      view.rasters.front().corner.y + view.rasters.front().size.y;  // texts of lower levels are below it
   for (const double height : sheet.levels) {
     const glm::dvec2 on_paper = sheet.on_paper(height * glm::normalize(sheet.up));
-    const double y = in_window(sheet, window, {sheet.corner.x, on_paper.y}).y + view.raster.corner.y;
+    const double y = in_window(sheet, window, {sheet.corner.x, on_paper.y}).y + view.rasters.front().corner.y;
     const double line = line_height(LABEL_SIZE_MM), base = y - 0.4 * LABEL_SIZE_MM;
-    if (y < view.raster.corner.y + line || y > free_above) continue;
+    if (y < view.rasters.front().corner.y + line || y > free_above) continue;
     free_above = y - line - 0.5 * LABEL_SIZE_MM;
     const double end = text_begin + text_width(level_text(sheet, height), LABEL_SIZE_MM) + MARK_END;
-    view.lines.push_back({{view.raster.corner.x + view.raster.size.x, y}, {end, y}, FINE_LINE_MM});
+    view.lines.push_back(
+        {{view.rasters.front().corner.x + view.rasters.front().size.x, y}, {end, y}, FINE_LINE_MM});
     const glm::dvec2 tip(begin + 0.5 * MARK_TRIANGLE, y), left(begin, y - 0.8 * MARK_TRIANGLE),
         right(begin + MARK_TRIANGLE, left.y);
     view.lines.push_back({tip, left, FINE_LINE_MM});

@@ -14,6 +14,8 @@ namespace splatray {
 [[nodiscard]] std::string contour_text(const Sheet& sheet, const Contour& contour);
 /// A height above the level that is +0.00, as "+2.80"; of millimetres without decimals.
 [[nodiscard]] std::string level_text(const Sheet& sheet, double height);
+/// A height with its unit, with the digits of level marks, "3.10 m".
+[[nodiscard]] std::string height_text(const Sheet& sheet, double height);
 /// Whether a sheet shows heights along its top, so that levels are lines on it: sections and elevations.
 [[nodiscard]] bool is_upright_sheet(const Sheet& sheet);
 

@@ -21,7 +21,7 @@ constexpr int DIRECTIONS = 8;
 
 /// The text where it covers no other and stays on the picture, the nearest such place first; nothing where there is none.
 std::optional<DrawnText> placed(const std::string& text, const glm::dvec2& middle, const Drawing& view) {
-  const TextBox picture{view.raster.corner, view.raster.corner + view.raster.size};
+  const TextBox picture{view.rasters.front().corner, view.rasters.front().corner + view.rasters.front().size};
   std::vector<TextBox> taken;
   for (const DrawnText& other : view.texts) taken.push_back(text_box(other));
   for (double away = NEAREST; away <= FARTHEST; away += NEXT)
@@ -56,7 +56,7 @@ MeasureFrame measure_frame(const Sheet& sheet) { return {sheet.up, sheet.crs, sh
 
 ShownMeasures draw_measures(const Sheet& sheet, const PixelWindow& window, std::span<const Measure> measures,
                             Drawing& view) {
-  const glm::dvec2 size = view.raster.size;
+  const glm::dvec2 size = view.rasters.front().size;
   const auto is_on = [&size](const glm::dvec2& at) {
     return at.x >= 0.0 && at.y >= 0.0 && at.x <= size.x && at.y <= size.y;
   };
@@ -71,7 +71,7 @@ ShownMeasures draw_measures(const Sheet& sheet, const PixelWindow& window, std::
     if (places.empty() || !std::all_of(places.begin(), places.end(), is_on)) continue;
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(shown.rows),
                  [i](const MeasureRow& row) { return row.id == i + 1; });
-    for (glm::dvec2& at : places) at += view.raster.corner;
+    for (glm::dvec2& at : places) at += view.rasters.front().corner;
     const glm::dvec2 middle = draw_marks(measures[i].kind, places, view);
     const std::string number = std::to_string(i + 1);
     std::optional<DrawnText> text = placed(number + ": " + short_text(measures[i], frame), middle, view);

@@ -60,6 +60,14 @@ std::string system_text(const Sheet& sheet) {
   return name.empty() ? "of the file, not named" : name;
 }
 
+/// Where one stands who sees an elevation, "the south".
+std::string side_text(double degrees) {
+  static constexpr std::array SIDES = {"the north", "the east", "the south", "the west"};
+  for (std::size_t i = 0; i < SIDES.size(); ++i)
+    if (degrees == 90.0 * static_cast<double>(i)) return SIDES[i];
+  return number_text(degrees) + "\u00B0 clockwise from north";
+}
+
 /// Four parts of a round length, in turn filled.
 Drawing bar_block(const Sheet& sheet, double width_mm) {
   Drawing block;
@@ -187,8 +195,22 @@ Drawing title_block(const PageWords& words, const Sheet& sheet, const std::strin
   return table;
 }
 
-Drawing key_block(const Sheet& sheet, const ShownMeasures& measures, const std::vector<std::string>& notes,
-                  double width_mm) {
+Drawing caption_block(std::size_t number, const Sheet& sheet, double width_mm) {
+  Drawing block;
+  const double left = sheet.north_up ? NORTH_WIDTH + KEY_GAP : 0.0;
+  if (sheet.north_up) {
+    const Drawing north = north_block();
+    add_block(north, {0.0, 0.0}, block);
+    block.size.y = north.size.y;
+  }
+  std::string words = std::to_string(number) + "  " + subject_text(sheet);
+  if (sheet.asked.contours) words += ", contours every " + length_text(sheet, *sheet.asked.contours);
+  const double text = add_text(words, TEXT_SIZE_MM, width_mm - left, {left, 0.0}, block);
+  block.size = {width_mm, std::max(block.size.y, text)};
+  return block;
+}
+
+Drawing key_block(const PageKey& key, double width_mm) {
   Drawing block;
   block.size.x = width_mm;
   double left = 0.0;
@@ -197,44 +219,49 @@ Drawing key_block(const Sheet& sheet, const ShownMeasures& measures, const std::
     return part.size.y;
   };
   double row = 0.0;
-  if (sheet.north_up) {
+  if (key.has_north) {
     row = add_below(north_block(), 0.0);
     left = NORTH_WIDTH + KEY_GAP;
   }
-  row = std::max(row, add_below(bar_block(sheet, width_mm - left), left));
+  row = std::max(row, add_below(bar_block(key.sheet, width_mm - left), left));
   block.size.y = row + 0.5 * KEY_GAP;
-  for (const std::string& note : notes)
-    block.size.y += add_text(note, TEXT_SIZE_MM, width_mm, {0.0, block.size.y}, block);
-  for (const std::string& note : measures.notes)
-    block.size.y += add_text(note, TEXT_SIZE_MM, width_mm, {0.0, block.size.y}, block);
-  if (const Drawing table = measure_table(measures.rows, width_mm); table.size.y > 0.0) {
+  for (const std::vector<std::string>& notes : {key.notes, key.measures.notes})
+    for (const std::string& note : notes)
+      block.size.y += add_text(note, TEXT_SIZE_MM, width_mm, {0.0, block.size.y}, block);
+  if (const Drawing table = measure_table(key.measures.rows, width_mm); table.size.y > 0.0) {
     block.size = glm::max(block.size, glm::dvec2(table.size.x, 0.0)) + glm::dvec2(0.0, 0.25 * KEY_GAP);
     block.size.y += add_below(table, 0.0);
   }
-  if (sheet.legend.title.empty()) return block;
+  if (key.sheet.legend.title.empty()) return block;
   block.size.y += 0.5 * KEY_GAP;
-  block.size.y += add_below(legend_block(sheet, width_mm), 0.0);
+  block.size.y += add_below(legend_block(key.sheet, width_mm), 0.0);
   return block;
 }
 
-std::vector<std::string> sheet_notes(const Sheet& sheet) {
+std::string subject_text(const Sheet& sheet) {
   static constexpr std::array NAMES = {"Plan", "Section", "Elevation",
-                                       "View along a direction"};  // SheetKind
+                                       "View along a direction"};  // SheetKind, of one sheet
   std::string subject = NAMES.at(static_cast<std::size_t>(sheet.asked.kind));
   if (sheet.asked.height) subject += ", cut at height " + length_text(sheet, *sheet.asked.height);
   if (sheet.asked.kind == SheetKind::section)
     subject += " along " + number_text(sheet.asked.place[0]) + ", " + number_text(sheet.asked.place[1]) +
                " to " + number_text(sheet.asked.place[2]) + ", " + number_text(sheet.asked.place[3]);
+  if (sheet.asked.kind == SheetKind::elevation) subject += " from " + side_text(sheet.asked.place[0]);
   if (sheet.asked.depth) subject += ", " + length_text(sheet, *sheet.asked.depth) + " deep";
-  std::vector<std::string> notes = {subject, "A pixel is " + length_text(sheet, sheet.pixel_world) + ", " +
-                                                 number_text(sheet.asked.dpi) + " dpi"};
+  return subject;
+}
+
+std::vector<std::string> sheet_notes(const Sheet& sheet, PageOf page) {
+  std::vector<std::string> notes = {"A pixel is " + length_text(sheet, sheet.pixel_world) + ", " +
+                                    number_text(sheet.asked.dpi) + " dpi"};
   if (sheet.asked.level) {
     std::string levels = "Levels from +0.00 at height " + length_text(sheet, *sheet.asked.level);
-    for (std::size_t i = 0; i < sheet.levels.size(); ++i)
+    for (std::size_t i = 0; page == PageOf::one_sheet && i < sheet.levels.size(); ++i)
       levels += (i == 0 ? ": " : ", ") + level_text(sheet, sheet.levels[i]);
     notes.push_back(levels);
   }
-  if (sheet.asked.contours) notes.push_back("Contours every " + length_text(sheet, *sheet.asked.contours));
+  if (sheet.asked.contours && page == PageOf::one_sheet)
+    notes.push_back("Contours every " + length_text(sheet, *sheet.asked.contours));
   if (!sheet.unit_known) notes.emplace_back("The file names no unit; its coordinates are taken for metres");
   return notes;
 }

@@ -14,4 +14,9 @@ namespace splatray {
 [[nodiscard]] std::string sheet_dxf(const Sheet& sheet, const PageWords& words,
                                     std::span<const Measure> measures);
 
+/// Several sheets. An atlas has its floors at their coordinates, one over the other, each on layers of its own: FLOOR1-CUT and so on, from
+/// the lowest. Views lie side by side with their captions, the first at its coordinates.
+[[nodiscard]] std::string sheets_dxf(const SheetSet& set, const PageWords& words,
+                                     std::span<const Measure> measures);
+
 }  // namespace splatray

@@ -34,10 +34,11 @@ Bytes encode_tiff(const GeoRaster& raster, const GeoTags& tags, const std::files
   return bytes;
 }
 
-Bytes encode_page(const Drawing& drawing, const std::string& format, const std::filesystem::path& path) {
+Bytes encode_pages(const std::vector<Drawing>& pages, const std::string& format,
+                   const std::filesystem::path& path) {
   Bytes bytes;
   std::string reason;
-  if (!sheet_codec().encode_drawing(drawing, format, bytes, reason))
+  if (!sheet_codec().encode_pages(pages, format, bytes, reason))
     throw Error(ExitCode::failed, "cannot write '" + path.string() + "': " + reason);
   return bytes;
 }
@@ -74,14 +75,17 @@ PageText page_text(const Shot& shot) {
   const std::vector<std::filesystem::path>& inputs = shot.request.source.inputs;
   PageText text{{output.title, output.title_block}, {}};
   if (text.words.title.empty() && !inputs.empty()) text.words.title = path_text(inputs.front().stem());
-  if (!output.measures.empty()) text.measures = read_measures(output.measures, shot.sheet()->crs);
+  const SheetSet* set = shot.sheet_set();
+  const Sheet& sheet = set == nullptr ? *shot.sheet() : set->sheets.front();
+  if (!output.measures.empty()) text.measures = read_measures(output.measures, sheet.crs);
   return text;
 }
 
-/// The page of the shot's window, without pixels. Throws Error: see sheet_page, page_text.
-Drawing page_of(const Shot& shot) {
+/// The pages of the shot, of one sheet that of its window, without pixels. Throws Error: see sheet_page, page_text.
+std::vector<Drawing> pages_of(const Shot& shot) {
   const PageText text = page_text(shot);
-  return sheet_page(*shot.sheet(), shot.view.made(), text.words, text.measures);
+  if (const SheetSet* set = shot.sheet_set()) return sheet_pages(*set, text.words, text.measures);
+  return {sheet_page(*shot.sheet(), shot.view.made(), text.words, text.measures)};
 }
 
 Bytes encode_dxf(const Shot& shot) {
@@ -91,22 +95,20 @@ Bytes encode_dxf(const Shot& shot) {
 }
 
 /// Where the file's pixels lie in the world.
-std::string description_of(const Sheet& sheet, const PixelWindow& window) {
+nlohmann::ordered_json description_of(const Sheet& sheet, const PixelWindow& window) {
   const glm::dvec2 corner = sheet.at(window.x, window.y) + sheet.origin;
-  nlohmann::ordered_json json{
-      {"sheet", sheet_text(sheet.asked)},
-      {"width", window.width},
-      {"height", window.height},
-      {"pixel_world", sheet.pixel_world},
-      {"unit_metres", sheet.unit_metres},
-      {"crs", sheet.crs},
-      {"right", json_vector(sheet.right)},
-      {"top", json_vector(sheet.top)},
-      {"toward", json_vector(sheet.toward)},
-      {"corner", json_vector(corner.x * sheet.right + corner.y * sheet.top + sheet.near * sheet.toward)},
-      {"corner_on_paper", {sheet.at(window.x, window.y).x, sheet.at(window.x, window.y).y}},
-      {"depth_world", sheet.near - sheet.far}};
-  return json_text(json, 1) + "\n";
+  return {{"sheet", sheet_text(sheet.asked)},
+          {"width", window.width},
+          {"height", window.height},
+          {"pixel_world", sheet.pixel_world},
+          {"unit_metres", sheet.unit_metres},
+          {"crs", sheet.crs},
+          {"right", json_vector(sheet.right)},
+          {"top", json_vector(sheet.top)},
+          {"toward", json_vector(sheet.toward)},
+          {"corner", json_vector(corner.x * sheet.right + corner.y * sheet.top + sheet.near * sheet.toward)},
+          {"corner_on_paper", {sheet.at(window.x, window.y).x, sheet.at(window.x, window.y).y}},
+          {"depth_world", sheet.near - sheet.far}};
 }
 
 std::string world_file(const GeoPlace& place) {
@@ -121,7 +123,7 @@ void require_sheet_writer() { static_cast<void>(sheet_codec()); }
 
 void require_page(const Shot& shot) {
   const std::string extension = lower_extension(shot.request.output.path);
-  if (extension == ".svg" || extension == ".pdf") static_cast<void>(page_of(shot));
+  if (extension == ".svg" || extension == ".pdf") static_cast<void>(pages_of(shot));
 }
 
 Bytes encode_sheet(const Shot& shot, const DisplayImage& picture, const Metadata& metadata,
@@ -137,9 +139,37 @@ Bytes encode_sheet(const Shot& shot, const DisplayImage& picture, const Metadata
     return encode_tiff({picture.width, picture.height, rgba_bytes(picture), {}}, tags, path);
   }
   if (extension == ".dxf") return encode_dxf(shot);
-  Drawing page = page_of(shot);
-  set_picture(picture, page);
-  return encode_page(page, extension.substr(1), path);
+  std::vector<Drawing> pages = pages_of(shot);
+  set_picture(picture, pages.front());
+  return encode_pages(pages, extension.substr(1), path);
+}
+
+Bytes encode_sheets(const Shot& shot, std::vector<SheetPicture> made, const std::filesystem::path& path) {
+  Shot drawn = shot;
+  SheetSet set{{}, shot.sheet_set()->is_atlas};
+  for (SheetPicture& one : made) set.sheets.push_back(std::move(one.sheet));
+  const bool is_atlas = set.is_atlas;
+  drawn.output = std::move(set);
+  const std::string extension = lower_extension(path);
+  if (extension == ".dxf") {
+    const PageText text = page_text(drawn);
+    const std::string dxf = sheets_dxf(*drawn.sheet_set(), text.words, text.measures);
+    return {dxf.begin(), dxf.end()};
+  }
+  std::vector<Drawing> pages = pages_of(drawn);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    set_picture(made[i].picture, pages[is_atlas ? i : 0], is_atlas ? 0 : i);
+    made[i].picture = {};
+  }
+  return encode_pages(pages, extension.substr(1), path);
+}
+
+void add_sheet_set_places(const SheetSet& set, const std::filesystem::path& path, FileSet& files) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Sheet& sheet : set.sheets)
+    list.push_back(description_of(sheet, {0, 0, sheet.width, sheet.height}));
+  const nlohmann::ordered_json all{{"sheets", list}};
+  files.add(sheet_places(path).description, json_text(all, 1) + "\n");
 }
 
 SheetPlaces sheet_places(const std::filesystem::path& path) {
@@ -164,7 +194,7 @@ void add_sheet_places(const Shot& shot, const Image& image, const std::filesyste
   const PixelWindow window = shot.view.made();
   const GeoPlace place = place_of(sheet, window);
   const SheetPlaces names = sheet_places(path);
-  files.add(names.description, description_of(sheet, window));
+  files.add(names.description, json_text(description_of(sheet, window), 1) + "\n");
   if (!request.output.height_raster.empty()) {
     const Bytes heights = encode_heights(shot, image);
     files.add(request.output.height_raster, heights.data(), heights.size());

@@ -13,7 +13,8 @@ namespace splatray {
 /// not there.
 void require_sheet_writer();
 
-/// Lays the page of a sheet out before its picture is made. Throws Error (usage) where the paper that is asked for is too small for it.
+/// Lays the pages of a sheet, or of several, out before a picture is made. Throws Error (usage) where the paper that is asked for is too
+/// small for them.
 void require_page(const Shot& shot);
 
 /// A sheet's file in the format of its name: .tif, a GeoTIFF of 8 bits; .svg or .pdf, a page with the picture at its scale, and
@@ -21,6 +22,18 @@ void require_page(const Shot& shot);
 [[nodiscard]] std::vector<unsigned char> encode_sheet(const Shot& shot, const DisplayImage& picture,
                                                       const Metadata& metadata,
                                                       const std::filesystem::path& path);
+
+/// A sheet of a set with its lines, and its picture; of a DXF without pixels.
+struct SheetPicture {
+  Sheet sheet;
+  DisplayImage picture;
+};
+
+/// The file of a shot's set of sheets, .pdf, .svg or .dxf: the pages, or the drawing, of all of them. Throws Error (failed).
+[[nodiscard]] std::vector<unsigned char> encode_sheets(const Shot& shot, std::vector<SheetPicture> made,
+                                                       const std::filesystem::path& path);
+/// Adds the description of a set's places, NAME.EXTENSION.sheet.json: a list of those of its sheets.
+void add_sheet_set_places(const SheetSet& set, const std::filesystem::path& path, FileSet& files);
 
 /// Files beside a sheet's that say where its pixels lie; empty ones are not written.
 struct SheetPlaces {

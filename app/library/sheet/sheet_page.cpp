@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/measure_marks.h"
 #include "app/library/sheet/sheet_view.h"
 #include "app/library/sheet/text_block.h"
@@ -16,6 +20,9 @@ namespace {
 // Millimetres. Margins of the frame as ISO 5457 has them, the title block's width as ISO 7200 has it.
 constexpr double BINDING = 20.0, MARGIN = 10.0, FRAME_LINE = 0.7;
 constexpr double TITLE_WIDTH = 180.0, KEY_LEAST = 75.0, AROUND = 4.0;
+constexpr double BETWEEN = 8.0, CAPTION_LEAST = 50.0;  ///< of views
+/// What of a floor may lie below its level.
+constexpr double FLOOR_METRES = 0.1;
 
 struct Paper {
   std::string name;
@@ -24,24 +31,75 @@ struct Paper {
   [[nodiscard]] glm::dvec2 frame() const { return size - glm::dvec2(BINDING + MARGIN, 2.0 * MARGIN); }
 };
 
+/// A sheet on its page.
+struct ShownView {
+  const Sheet* sheet = nullptr;
+  Drawing drawing;
+};
+
 /// What goes on a page, whatever its paper is.
 struct Content {
-  const Sheet& sheet;
-  const PageWords& words;
-  Drawing view;
+  PageWords words;
+  std::vector<ShownView> views;  ///< one or more
+  std::vector<std::string> notes;
   ShownMeasures measures;
+
+  [[nodiscard]] const Sheet& first() const { return *views.front().sheet; }
+  /// The one whose coordinates the title block names: the first that has the file's.
+  [[nodiscard]] const Sheet& placed() const {
+    const auto view =
+        std::find_if(views.begin(), views.end(), [](const ShownView& one) { return one.sheet->north_up; });
+    return view == views.end() ? first() : *view->sheet;
+  }
+};
+
+/// Where the views of a page lie from the grid's corner.
+struct Grid {
+  glm::dvec2 size{0.0};
+  std::vector<glm::dvec2> corners;
+};
+
+/// Views in rows of so many: below each other with their left borders in one line, beside each other with the lower ones, so that a plan's
+/// walls lie over an elevation's, and its floors beside a section's.
+Grid grid_of(const std::vector<ShownView>& views, std::size_t columns) {
+  const std::size_t rows = (views.size() + columns - 1) / columns;
+  std::vector<double> widths(columns), above(rows), below(rows);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Drawing& view = views[i].drawing;
+    const double foot = view.rasters.front().corner.y + view.rasters.front().size.y;
+    widths[i % columns] = std::max(widths[i % columns], view.size.x);
+    above[i / columns] = std::max(above[i / columns], foot);
+    below[i / columns] = std::max(below[i / columns], view.size.y - foot);
+  }
+  Grid grid;
+  glm::dvec2 at(0.0);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::size_t column = i % columns, row = i / columns;
+    if (column == 0) at = {0.0, row == 0 ? 0.0 : grid.size.y + BETWEEN};
+    const DrawnRaster& picture = views[i].drawing.rasters.front();
+    grid.corners.push_back(at + glm::dvec2(0.0, above[row] - picture.corner.y - picture.size.y));
+    at.x += widths[column] + BETWEEN;
+    grid.size = glm::max(grid.size, glm::dvec2(at.x - BETWEEN, at.y + above[row] + below[row]));
+  }
+  return grid;
+}
+
+/// A paper, and how the views of all pages lie on it.
+struct Layout {
+  Paper paper;
+  std::size_t columns = 1;
+  double foot_height = 0.0;  ///< of the page that needs the most
 };
 
 /// What stands below the drawing, as wide as the frame: the key to the left of the title block, or above it where that takes all.
 Drawing foot_block(const Content& content, const std::string& paper, double width) {
-  const Drawing title = title_block(content.words, content.sheet, paper, TITLE_WIDTH);
+  const Drawing title = title_block(content.words, content.placed(), paper, TITLE_WIDTH);
   const double room = width - 2.0 * AROUND, room_beside = room - TITLE_WIDTH;
-  const auto key_in = [&content](double mm) {
-    return key_block(content.sheet, content.measures, sheet_notes(content.sheet), mm);
-  };
-  Drawing key = key_in(std::max(room_beside, KEY_LEAST));
+  const PageKey page_key{content.first(), content.views.size() == 1 && content.first().north_up,
+                         content.notes, content.measures};
+  Drawing key = key_block(page_key, std::max(room_beside, KEY_LEAST));
   const bool beside = key.size.x <= room_beside;
-  if (!beside) key = key_in(room);
+  if (!beside) key = key_block(page_key, room);
   Drawing foot;
   foot.size = {width,
                beside ? std::max(title.size.y, key.size.y + AROUND) : title.size.y + key.size.y + AROUND};
@@ -50,9 +108,27 @@ Drawing foot_block(const Content& content, const std::string& paper, double widt
   return foot;
 }
 
-/// What the drawing and its foot take of a frame of this width.
-glm::dvec2 needed(const Drawing& view, const Drawing& foot) {
-  return {std::max(view.size.x + 2.0 * AROUND, foot.size.x), view.size.y + foot.size.y + 2.0 * AROUND};
+/// What the foots of all pages take of a frame of this width at most.
+glm::dvec2 foot_size(const std::vector<Content>& pages, const std::string& paper, double width) {
+  glm::dvec2 size(0.0);
+  for (const Content& page : pages) size = glm::max(size, foot_block(page, paper, width).size);
+  return size;
+}
+
+/// What a drawing and its foot take of a frame.
+glm::dvec2 needed(const glm::dvec2& drawing, const glm::dvec2& foot) {
+  return {std::max(drawing.x + 2.0 * AROUND, foot.x), drawing.y + foot.y + 2.0 * AROUND};
+}
+
+/// What the drawings of all pages take at most.
+glm::dvec2 drawn_size(const std::vector<Content>& pages, std::size_t columns) {
+  glm::dvec2 size(0.0);
+  for (const Content& page : pages) size = glm::max(size, grid_of(page.views, columns).size);
+  return size;
+}
+
+std::size_t square_columns(const std::vector<Content>& pages) {
+  return static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(pages.front().views.size()))));
 }
 
 /// Those that may be taken, in this order: small ones first, and first as the drawing lies.
@@ -71,27 +147,41 @@ std::vector<Paper> papers(const SheetRequest& asked, const glm::dvec2& drawn) {
 }
 
 /// A paper that holds all and no more.
-Paper made_to_measure(const Content& content) {
-  const double width = std::max(content.view.size.x + 2.0 * AROUND, TITLE_WIDTH);
+Layout made_to_measure(const std::vector<Content>& pages) {
+  const std::size_t columns = square_columns(pages);
+  const glm::dvec2 drawn = drawn_size(pages, columns);
+  const double width = std::max(drawn.x + 2.0 * AROUND, TITLE_WIDTH);
   const auto of_height = [&](double height) {
     const glm::dvec2 size = glm::ceil(glm::dvec2(width + BINDING + MARGIN, height + 2.0 * MARGIN));
     return Paper{number_text(size.x) + " x " + number_text(size.y) + " mm", size};
   };
   // Twice, as the paper's name is a text of its foot; a millimetre of ceil() is the slack that a longer number may take.
-  const Paper first =
-      of_height(needed(content.view, foot_block(content, of_height(content.view.size.y).name, width)).y);
-  return of_height(needed(content.view, foot_block(content, first.name, width)).y);
+  const Paper first = of_height(needed(drawn, foot_size(pages, of_height(drawn.y).name, width)).y);
+  const Paper paper = of_height(needed(drawn, foot_size(pages, first.name, width)).y);
+  return {paper, columns, foot_size(pages, paper.name, paper.frame().x).y};
 }
 
-Paper chosen_paper(const Content& content) {
-  const SheetRequest& asked = content.sheet.asked;
-  for (const Paper& paper : papers(asked, content.view.size)) {
-    const glm::dvec2 frame = paper.frame();
-    const glm::dvec2 need = needed(content.view, foot_block(content, paper.name, frame.x));
-    if (need.x <= frame.x && need.y <= frame.y) return paper;
+/// Of the ways in which the drawing fits on a paper the one that leaves the most room around it; nothing where none does.
+std::optional<Layout> fitted(const std::vector<Content>& pages, const Paper& paper) {
+  const glm::dvec2 frame = paper.frame(), foot = foot_size(pages, paper.name, frame.x);
+  std::optional<Layout> best;
+  double fullest = 1.0;
+  for (std::size_t columns = 1; columns <= pages.front().views.size(); ++columns) {
+    const glm::dvec2 part = needed(drawn_size(pages, columns), foot) / frame;
+    if (std::max(part.x, part.y) > fullest) continue;
+    fullest = std::max(part.x, part.y);
+    best = {paper, columns, foot.y};
   }
-  if (asked.paper.empty()) return made_to_measure(content);
-  const glm::dvec2 size = glm::ceil(content.view.size);
+  return best;
+}
+
+Layout chosen_layout(const std::vector<Content>& pages) {
+  const SheetRequest& asked = pages.front().first().asked;
+  const glm::dvec2 drawn = drawn_size(pages, square_columns(pages));
+  for (const Paper& paper : papers(asked, drawn))
+    if (const std::optional<Layout> layout = fitted(pages, paper)) return *layout;
+  if (asked.paper.empty()) return made_to_measure(pages);
+  const glm::dvec2 size = glm::ceil(drawn);
   throw Error(
       ExitCode::usage,
       "the drawing takes " + number_text(size.x) + " x " + number_text(size.y) +
@@ -103,6 +193,84 @@ void add_frame(const glm::dvec2& low, const glm::dvec2& high, Drawing& page) {
   const std::array<glm::dvec2, 4> corners = {low, {high.x, low.y}, high, {low.x, high.y}};
   for (std::size_t i = 0; i < corners.size(); ++i)
     page.lines.push_back({corners[i], corners[(i + 1) % corners.size()], FRAME_LINE});
+}
+
+Drawing page_of(const Content& content, const Layout& layout) {
+  const glm::dvec2 low(BINDING, MARGIN), high = low + layout.paper.frame();
+  const Drawing foot = foot_block(content, layout.paper.name, high.x - low.x);
+  Drawing page;
+  page.size = layout.paper.size;
+  page.title = content.words.title;
+  add_frame(low, high, page);
+  add_block(foot, {low.x, high.y - foot.size.y}, page);
+  const Grid grid = grid_of(content.views, layout.columns);
+  const glm::dvec2 room(high.x - low.x, high.y - layout.foot_height - low.y);
+  for (std::size_t i = 0; i < content.views.size(); ++i)
+    add_block(content.views[i].drawing, low + 0.5 * (room - grid.size) + grid.corners[i], page);
+  return page;
+}
+
+std::vector<Drawing> pages_of(const std::vector<Content>& contents) {
+  const Layout layout = chosen_layout(contents);
+  std::vector<Drawing> pages;
+  for (const Content& content : contents) pages.push_back(page_of(content, layout));
+  return pages;
+}
+
+/// The content of a page with one sheet.
+Content content_of(const Sheet& sheet, const PixelWindow& window, const PageWords& words,
+                   std::span<const Measure> measures) {
+  Content content{words, {{&sheet, sheet_view(sheet, window)}}, {subject_text(sheet)}, {}};
+  if (sheet.floor) content.notes.push_back(floor_text(sheet));
+  for (const std::string& note : sheet_notes(sheet)) content.notes.push_back(note);
+  content.measures = draw_measures(sheet, window, measures, content.views.front().drawing);
+  return content;
+}
+
+std::string in_sentence(std::string text) {
+  text.front() = static_cast<char>(std::tolower(text.front()));
+  return text;
+}
+
+PixelWindow whole(const Sheet& sheet) { return {0, 0, sheet.width, sheet.height}; }
+
+Content floor_content(const SheetSet& atlas, std::size_t index, const PageWords& words,
+                      std::span<const Measure> measures) {
+  const Sheet& sheet = atlas.sheets[index];
+  PageWords own = words;
+  own.block.sheet += (own.block.sheet.empty() ? "" : " ") + std::to_string(index + 1) + "/" +
+                     std::to_string(atlas.sheets.size());
+  own.title += own.title.empty() ? floor_text(sheet) : ", " + in_sentence(floor_text(sheet));
+  return content_of(sheet, whole(sheet), own, measures_of_floor(atlas, index, measures));
+}
+
+/// Rows of measures that the content has not yet, as those that several views show.
+void add_rows(const ShownMeasures& shown, ShownMeasures& all) {
+  for (const std::string& note : shown.notes)
+    if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
+  const std::vector<MeasureRow> before = all.rows;
+  for (const MeasureRow& row : shown.rows)
+    if (std::none_of(before.begin(), before.end(),
+                     [&row](const MeasureRow& other) { return other.id == row.id; }))
+      all.rows.push_back(row);
+  std::stable_sort(all.rows.begin(), all.rows.end(),
+                   [](const MeasureRow& a, const MeasureRow& b) { return a.id < b.id; });
+}
+
+/// A page of all views.
+Content views_content(const SheetSet& set, const PageWords& words, std::span<const Measure> measures) {
+  Content content{words, {}, {}, {}};
+  content.notes = sheet_notes(set.sheets.front(), PageOf::views);
+  for (const Sheet& sheet : set.sheets) {
+    ShownView view{&sheet, sheet_view(sheet, whole(sheet))};
+    add_rows(draw_measures(sheet, whole(sheet), measures, view.drawing), content.measures);
+    view.drawing.size.x = std::max(view.drawing.size.x, CAPTION_LEAST);
+    const Drawing caption = caption_block(content.views.size() + 1, sheet, view.drawing.size.x);
+    add_block(caption, {0.0, view.drawing.size.y}, view.drawing);
+    view.drawing.size.y += caption.size.y;
+    content.views.push_back(std::move(view));
+  }
+  return content;
 }
 
 }  // namespace
@@ -120,29 +288,48 @@ std::vector<std::uint8_t> rgba_bytes(const DisplayImage& picture) {
 
 Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const PageWords& words,
                    std::span<const Measure> measures) {
-  Content content{sheet, words, sheet_view(sheet, window), {}};
-  content.measures = draw_measures(sheet, window, measures, content.view);
-  const Paper paper = chosen_paper(content);
-  const glm::dvec2 low(BINDING, MARGIN), high = low + paper.frame();
-  const Drawing foot = foot_block(content, paper.name, high.x - low.x);
-  const glm::dvec2 foot_corner(low.x, high.y - foot.size.y);
-  Drawing page;
-  page.size = paper.size;
-  page.title = words.title;
-  add_frame(low, high, page);
-  add_block(foot, foot_corner, page);
-  const glm::dvec2 room(high.x - low.x, foot_corner.y - low.y);
-  const glm::dvec2 view_corner = low + 0.5 * (room - content.view.size);
-  add_block(content.view, view_corner, page);
-  page.raster = content.view.raster;
-  page.raster.corner += view_corner;
-  return page;
+  return std::move(pages_of({content_of(sheet, window, words, measures)}).front());
 }
 
-void set_picture(const DisplayImage& picture, Drawing& page) {
-  page.raster.width = picture.width;
-  page.raster.height = picture.height;
-  page.raster.rgba = rgba_bytes(picture);
+std::vector<Drawing> sheet_pages(const SheetSet& set, const PageWords& words,
+                                 std::span<const Measure> measures) {
+  if (!set.is_atlas) return pages_of({views_content(set, words, measures)});
+  std::vector<Content> contents;
+  for (std::size_t i = 0; i < set.sheets.size(); ++i)
+    contents.push_back(floor_content(set, i, words, measures));
+  return pages_of(contents);
+}
+
+std::vector<Measure> measures_of_floor(const SheetSet& atlas, std::size_t index,
+                                       std::span<const Measure> measures) {
+  const auto begin_of = [&atlas](std::size_t i) {
+    const Sheet& sheet = atlas.sheets[i];
+    return *sheet.floor - FLOOR_METRES / sheet.unit_metres;
+  };
+  std::vector<Measure> own(measures.begin(), measures.end());
+  for (Measure& measure : own) {
+    if (measure.points.empty()) continue;
+    double height = 0.0;
+    for (const SurfacePoint& point : measure.points)
+      height += glm::dot(point.place, glm::normalize(atlas.sheets[index].up)) /
+                static_cast<double>(measure.points.size());
+    const bool is_below = index > 0 && height < begin_of(index);
+    const bool is_above = index + 1 < atlas.sheets.size() && height >= begin_of(index + 1);
+    if (is_below || is_above) measure = {};
+  }
+  return own;
+}
+
+std::string floor_text(const Sheet& sheet) {
+  if (sheet.asked.level) return "Floor at " + level_text(sheet, *sheet.floor);
+  return "Floor at height " + height_text(sheet, *sheet.floor);
+}
+
+void set_picture(const DisplayImage& picture, Drawing& page, std::size_t index) {
+  DrawnRaster& raster = page.rasters[index];
+  raster.width = picture.width;
+  raster.height = picture.height;
+  raster.rgba = rgba_bytes(picture);
 }
 
 }  // namespace splatray

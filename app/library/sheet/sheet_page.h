@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/library/codec/drawing.h"
 #include "app/library/display_image.h"
@@ -21,7 +22,20 @@ namespace splatray {
 [[nodiscard]] Drawing sheet_page(const Sheet& sheet, const PixelWindow& window, const PageWords& words,
                                  std::span<const Measure> measures);
 
-/// Gives the page the picture of its window.
-void set_picture(const DisplayImage& picture, Drawing& page);
+/// The pages of several sheets, their rasters yet without pixels: of an atlas a page for each floor, all on one paper and the drawing at one
+/// place of it, numbered 1/n, with the measures of the floor's storey; of views one page, which has
+/// them in rows with their captions. Throws Error as sheet_page does.
+[[nodiscard]] std::vector<Drawing> sheet_pages(const SheetSet& set, const PageWords& words,
+                                               std::span<const Measure> measures);
+
+/// The measures on an atlas' floor, by their points' mean height: not below its floor, and below the next one; of the lowest all below,
+/// too.
+[[nodiscard]] std::vector<Measure> measures_of_floor(const SheetSet& atlas, std::size_t index,
+                                                     std::span<const Measure> measures);
+/// "Floor at height 3.10 m", or from level= on "Floor at +3.10".
+[[nodiscard]] std::string floor_text(const Sheet& sheet);
+
+/// Gives the page the picture of its window, the first one or another.
+void set_picture(const DisplayImage& picture, Drawing& page, std::size_t index = 0);
 
 }  // namespace splatray

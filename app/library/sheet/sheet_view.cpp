@@ -39,7 +39,7 @@ std::vector<GridLine> grid_lines(double first, double way, double length_mm, dou
 }
 
 void add_frame(Drawing& view) {
-  const glm::dvec2 corner = view.raster.corner, end = corner + view.raster.size;
+  const glm::dvec2 corner = view.rasters.front().corner, end = corner + view.rasters.front().size;
   const std::array<glm::dvec2, 4> corners = {corner, {end.x, corner.y}, end, {corner.x, end.y}};
   for (std::size_t i = 0; i < corners.size(); ++i)
     view.lines.push_back({corners[i], corners[(i + 1) % corners.size()], CELL_LINE_MM});
@@ -48,15 +48,16 @@ void add_frame(Drawing& view) {
 /// A coordinate above the picture or, turned, to its left, unless it would reach beyond the given room along its line.
 void add_label(const GridLine& line, bool upwards, const std::array<double, 2>& room, Drawing& view) {
   const double half = 0.5 * text_width(line.label, LABEL_SIZE_MM);
-  const double at = line.at_mm + (upwards ? view.raster.corner.y : view.raster.corner.x);
+  const double at = line.at_mm + (upwards ? view.rasters.front().corner.y : view.rasters.front().corner.x);
   if (at - half < room[0] || at + half > room[1]) return;
-  const double across = (upwards ? view.raster.corner.x : view.raster.corner.y) - TICK - BESIDE;
+  const double across =
+      (upwards ? view.rasters.front().corner.x : view.rasters.front().corner.y) - TICK - BESIDE;
   view.texts.push_back({upwards ? glm::dvec2(across, at) : glm::dvec2(at, across), LABEL_SIZE_MM,
                         TextAnchor::middle, line.label, upwards});
 }
 
 void add_ticks(const std::vector<GridLine>& across, const std::vector<GridLine>& along, Drawing& view) {
-  const glm::dvec2 corner = view.raster.corner, end = corner + view.raster.size;
+  const glm::dvec2 corner = view.rasters.front().corner, end = corner + view.rasters.front().size;
   for (const GridLine& line : across) {
     const double x = corner.x + line.at_mm;
     view.lines.push_back({{x, corner.y - TICK}, {x, corner.y}, FINE_LINE_MM});
@@ -76,9 +77,9 @@ void add_crosses(const std::vector<GridLine>& across, const std::vector<GridLine
   const glm::dvec2 arm(CROSS, 0.0), other(0.0, CROSS);
   for (const GridLine& x : across)
     for (const GridLine& y : along) {
-      const glm::dvec2 at(x.at_mm, y.at_mm), beyond = view.raster.size - at;
+      const glm::dvec2 at(x.at_mm, y.at_mm), beyond = view.rasters.front().size - at;
       if (std::min({at.x, at.y, beyond.x, beyond.y}) < CROSS) continue;
-      const glm::dvec2 place = view.raster.corner + at;
+      const glm::dvec2 place = view.rasters.front().corner + at;
       view.lines.push_back({place - arm, place + arm, FINE_LINE_MM});
       view.lines.push_back({place - other, place + other, FINE_LINE_MM});
     }
@@ -104,8 +105,8 @@ void add_grid(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
   const glm::dvec2 last = sheet.at(window.x + window.width, window.y + window.height);
   const double step = grid_step(sheet, {first.x, first.y, last.x, last.y}),
                per_world = 1.0 / sheet.mm_world();
-  const auto across = grid_lines(first.x, 1.0, view.raster.size.x, per_world, step);
-  const auto along = grid_lines(first.y, -1.0, view.raster.size.y, per_world, step);
+  const auto across = grid_lines(first.x, 1.0, view.rasters.front().size.x, per_world, step);
+  const auto along = grid_lines(first.y, -1.0, view.rasters.front().size.y, per_world, step);
   add_ticks(across, along, view);
   add_crosses(across, along, view);
 }
@@ -114,8 +115,8 @@ void add_curve(const Sheet& sheet, const PixelWindow& window, const CutCurve& cu
                Drawing& view) {
   DrawnPath path{{}, curve.closed, width_mm};
   for (const glm::dvec2& point : curve.points)
-    path.points.push_back(view.raster.corner + in_window(sheet, window, point));
-  view.paths.push_back(std::move(path));
+    path.points.push_back(view.rasters.front().corner + in_window(sheet, window, point));
+  view.rasters.front().paths.push_back(std::move(path));
 }
 
 void add_seen(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
@@ -128,10 +129,10 @@ void add_seen(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
 void add_cut(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
   for (const CutCurve& curve : sheet.cut_curves) add_curve(sheet, window, curve, sheet.asked.weight_mm, view);
   for (const auto& [from, to] : sheet.hatch)
-    view.paths.push_back({{view.raster.corner + in_window(sheet, window, from),
-                           view.raster.corner + in_window(sheet, window, to)},
-                          false,
-                          FINE_LINE_MM});
+    view.rasters.front().paths.push_back({{view.rasters.front().corner + in_window(sheet, window, from),
+                                           view.rasters.front().corner + in_window(sheet, window, to)},
+                                          false,
+                                          FINE_LINE_MM});
 }
 
 }  // namespace
@@ -160,9 +161,10 @@ glm::dvec2 in_window(const Sheet& sheet, const PixelWindow& window, const glm::d
 Drawing sheet_view(const Sheet& sheet, const PixelWindow& window) {
   Drawing view;
   const double before = TICK + BESIDE + line_height(LABEL_SIZE_MM);
-  view.raster.corner = glm::dvec2(before);
-  view.raster.size = glm::dvec2(window.width, window.height) * sheet.pixel_mm();
-  view.size = view.raster.corner + view.raster.size + glm::dvec2(BEHIND);
+  view.rasters.emplace_back();
+  view.rasters.front().corner = glm::dvec2(before);
+  view.rasters.front().size = glm::dvec2(window.width, window.height) * sheet.pixel_mm();
+  view.size = view.rasters.front().corner + view.rasters.front().size + glm::dvec2(BEHIND);
   add_seen(sheet, window, view);
   add_cut(sheet, window, view);
   add_frame(view);

@@ -53,9 +53,11 @@ void add_block(const Drawing& block, const glm::dvec2& corner, Drawing& page) {
     box.corner += corner;
     page.boxes.push_back(box);
   }
-  for (DrawnPath path : block.paths) {
-    for (glm::dvec2& point : path.points) point += corner;
-    page.paths.push_back(path);
+  for (DrawnRaster raster : block.rasters) {
+    raster.corner += corner;
+    for (DrawnPath& path : raster.paths)
+      for (glm::dvec2& point : path.points) point += corner;
+    page.rasters.push_back(std::move(raster));
   }
   for (DrawnText text : block.texts) {
     text.at += corner;

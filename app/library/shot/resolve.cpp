@@ -9,6 +9,7 @@
 #include "app/library/request/fields.h"
 #include "app/library/shot/picture_notes.h"
 #include "app/library/shot/sheet_placement.h"
+#include "app/library/shot/sheet_set.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 #include "engine/image/point_sample.h"
@@ -177,10 +178,24 @@ void resolve_sheet(Request& request) {
   request.look.tone = Tone::none;
 }
 
-Sheet drawn_sheet(const Scene& scene, const SceneFacts& facts, const Request& request) {
+/// Draws the sheet or, of several, all, of which the shot shows the first.
+void resolve_drawing(const Scene& scene, const SceneFacts& facts, Shot& shot) {
+  const Request& request = shot.request;
+  const bool has_legend = !request.view.xray && look_style(resolve_look(scene, request)).colors;
+  const auto show = [&](Sheet& sheet) {
+    if (has_legend) sheet.legend = facts.legend;
+    show_sheet(sheet, shot);
+  };
+  if (request.view.sheet->is_set()) {
+    SheetSet set = make_sheet_set(scene, request);
+    for (auto sheet = set.sheets.rbegin(); sheet != set.sheets.rend(); ++sheet) show(*sheet);
+    shot.output = std::move(set);
+    return;
+  }
   Sheet sheet = make_sheet(scene, request);
-  if (!request.view.xray && look_style(resolve_look(scene, request)).colors) sheet.legend = facts.legend;
-  return sheet;
+  require_part_of(request.view, sheet.width, sheet.height);
+  show(sheet);
+  shot.output = std::move(sheet);
 }
 
 void set_pixels(std::uint32_t width, std::uint32_t height, Shot& shot) {
@@ -300,12 +315,7 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   const Scene& whole = facts.overview ? *facts.overview : scene;
   shot.settings = resolve_settings(whole, request);
   if (request.view.sheet) {
-    Sheet sheet = drawn_sheet(whole, facts, request);
-    require_part_of(request.view, sheet.width, sheet.height);
-    set_pixels(sheet.width, sheet.height, shot);
-    shot.view.camera = sheet.camera();
-    for (const HalfSpace& plane : sheet.planes()) shot.settings.region.kept.push_back(plane);
-    shot.output = std::move(sheet);
+    resolve_drawing(whole, facts, shot);
   } else {
     shot.view.camera =
         resolve_camera(whole, request, static_cast<double>(shot.view.width) / shot.view.height);

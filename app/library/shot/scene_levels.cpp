@@ -63,10 +63,9 @@ ChosenNodes overview_of(const InLevels& files) {
   return nodes;
 }
 
-NeededNodes needed_nodes(const Request& request, const std::vector<Camera>& cameras, const View& view,
-                         const InLevels& files) {
+NeededNodes needed_nodes(const Request& request, const std::vector<View>& views, const InLevels& files) {
   LevelCut cut;
-  for (const Camera& camera : cameras) cut.views.push_back({camera, view.width, view.height});
+  cut.views = views;
   cut.spacing_px = request.source.lod.value_or(1.0);
   cut.most_points = most_points(request);
   if (asks_for_materials(request.look)) cut.unseen_factor = 1.0;  // mirrors show it

@@ -32,9 +32,9 @@ struct NeededNodes {
   double lod = 0.0;
 };
 
-/// Those that pictures by these cameras, as large as `view`, need by the request's spacing and memory (level_cut.h).
-[[nodiscard]] NeededNodes needed_nodes(const Request& request, const std::vector<Camera>& cameras,
-                                       const View& view, const InLevels& files);
+/// Those that these pictures need by the request's spacing and memory (level_cut.h).
+[[nodiscard]] NeededNodes needed_nodes(const Request& request, const std::vector<View>& views,
+                                       const InLevels& files);
 
 /// These nodes and all that parts of pictures show. Throws Error (out_of_memory) for more points than the request's memory holds.
 [[nodiscard]] ChosenNodes with_all_seen(const Request& request, const std::vector<View>& parts,

@@ -106,7 +106,7 @@ LoadedScene load_needed(const Request& request, const InLevels& files, const Sce
                         const LoadListener& listener, const ChosenNodes& shown) {
   const Scene& whole = *overview.overview;
   const Shot shot = resolve(request, whole, overview);
-  NeededNodes needed = needed_nodes(request, all_cameras(shot, whole), shot.view, files);
+  NeededNodes needed = needed_nodes(request, all_views(shot, whole), files);
   LoadedScene loaded;
   if (needed.nodes != shown) {
     if (listener.note)

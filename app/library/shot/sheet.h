@@ -1,6 +1,7 @@
 /// A sheet of a scene: which rectangle of which plane it shows, in pixels that are exactly so large.
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,9 @@ struct Sheet {
   std::vector<std::array<glm::dvec2, 2>> hatch;  ///< lines between the backs of these, along right and top
   double thickest_world = 0.0;                   ///< of a wall (HatchStyle::thickest)
   std::vector<Contour> contours;                 ///< along right and top
-  std::vector<double> levels;  ///< heights of level marks, ascending, world units along `up`
-  ColorLegend legend;          ///< of the colours shown; without a title, nothing is to be said of them
+  std::vector<double> levels;     ///< heights of level marks, ascending, world units along `up`
+  ColorLegend legend;             ///< of the colours shown; without a title, nothing is to be said of them
+  std::optional<double> floor{};  ///< of an atlas' page: height of its floor along `up`, world units
 
   /// Orthographic, of the whole sheet.
   [[nodiscard]] Camera camera() const;
@@ -61,6 +63,12 @@ struct Sheet {
   [[nodiscard]] glm::dvec2 at(double x, double y) const {
     return corner - origin + glm::dvec2(x, -y) * pixel_world;
   }
+};
+
+/// Several sheets in one file, of one scale: views on a page, or an atlas, a page for each floor with the same rectangle of the ground.
+struct SheetSet {
+  std::vector<Sheet> sheets;  ///< in the order asked for, floors from the lowest
+  bool is_atlas = false;
 };
 
 }  // namespace splatray

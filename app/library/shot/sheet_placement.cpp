@@ -7,6 +7,7 @@
 
 #include "app/library/cut/cut_hatch.h"
 #include "app/library/cut/cut_join.h"
+#include "app/library/cut/disc_radius.h"
 #include "app/library/cut/floor_levels.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
@@ -59,6 +60,7 @@ void set_axes(const PlanAxes& plan, Sheet& sheet) {
   const std::vector<double>& place = sheet.asked.place;
   switch (sheet.asked.kind) {
     case SheetKind::plan:
+    case SheetKind::atlas:
       sheet.right = plan.east;
       sheet.toward = plan.up;
       break;
@@ -82,15 +84,8 @@ void set_axes(const PlanAxes& plan, Sheet& sheet) {
 }
 
 void set_unit(Sheet& sheet) {
-  const Crs crs = describe_crs(sheet.crs);
-  if (crs.is_degrees && !sheet.asked.unit_metres)
-    throw Error(
-        ExitCode::usage,
-        "the file's coordinates are degrees (" + crs.name +
-            "), of which a sheet cannot be to scale; expected a projected system, or unit= in --sheet");
-  sheet.unit_known = sheet.asked.unit_metres || crs.horizontal_metres > 0.0;
-  const double of_file = crs.horizontal_metres > 0.0 ? crs.horizontal_metres : 1.0;
-  sheet.unit_metres = sheet.asked.unit_metres.value_or(of_file);
+  sheet.unit_known = sheet.asked.unit_metres || describe_crs(sheet.crs).horizontal_metres > 0.0;
+  sheet.unit_metres = sheet_unit_metres(sheet.asked, sheet.crs);
   sheet.pixel_world = sheet.pixel_mm() * sheet.asked.scale / METRE_MM / sheet.unit_metres;
 }
 
@@ -137,21 +132,6 @@ void require_resolved(double place, double pixel_world) {
                                      "; expected a scale of a larger number, or --keep-box");
 }
 
-/// Refuses sheets that take long for what is on them: a few points far apart at a large scale.
-void require_pixels(double width, double height, std::size_t splats) {
-  const std::string found =
-      "the sheet would be " + number_text(width) + " x " + number_text(height) + " pixels";
-  const std::string instead = ": a scale of a larger number, fewer dpi, or --keep-box";
-  if (!(width <= MOST_PIXELS && height <= MOST_PIXELS))
-    throw Error(ExitCode::usage,
-                found + ", expected at most " + number_text(MOST_PIXELS) + " a side" + instead);
-  const double most = FREE_PIXELS + SPLAT_PIXELS * static_cast<double>(splats);
-  if (width * height > most)
-    throw Error(ExitCode::usage, found + " for a scene of " + std::to_string(splats) +
-                                     " splats, expected at most " + number_text(std::round(most / 1e6)) +
-                                     " million pixels" + instead);
-}
-
 void set_pixels(const PointSample& shown, std::size_t splats, Sheet& sheet) {
   const double margin = MARGIN_MM / sheet.pixel_mm() * sheet.pixel_world;
   std::array<double, 2> across = range_along(shown.position, sheet.right, 0.0);
@@ -168,20 +148,9 @@ void set_pixels(const PointSample& shown, std::size_t splats, Sheet& sheet) {
   sheet.corner.y = sheet.origin.y + pixel * std::ceil((along[1] + margin - sheet.origin.y) / pixel);
   const double width = std::ceil((across[1] - sheet.corner.x) / pixel);
   const double height = std::ceil((sheet.corner.y - along[0] + margin) / pixel);
-  require_pixels(width, height, splats);
+  require_sheet_pixels(width, height, splats);
   sheet.width = std::max(static_cast<std::uint32_t>(width), 1U);
   sheet.height = std::max(static_cast<std::uint32_t>(height), 1U);
-}
-
-/// Radius of the discs of the region, on the median of some of them.
-double disc_radius(const Scene& scene, const Region& region) {
-  constexpr std::size_t SOME = 1U << 16U;
-  const std::size_t every = splat_count(scene) / SOME + 1;
-  std::vector<double> radii;
-  for_each_splat(scene, [&](std::size_t i, const SceneSplat& splat) {
-    if (i % every == 0 && region.holds(splat.center_world())) radii.push_back(splat.radius_world());
-  });
-  return radii.empty() ? 0.0 : value_at(radii, 0.5);
 }
 
 CutPlane cut_plane(const Sheet& sheet) { return {sheet.right, sheet.top, sheet.toward, sheet.near}; }
@@ -228,6 +197,30 @@ std::vector<Contour> sheet_contours(const Scene& scene, const Region& region, co
 }
 
 }  // namespace
+
+double sheet_unit_metres(const SheetRequest& asked, const std::string& crs_text) {
+  const Crs crs = describe_crs(crs_text);
+  if (crs.is_degrees && !asked.unit_metres)
+    throw Error(
+        ExitCode::usage,
+        "the file's coordinates are degrees (" + crs.name +
+            "), of which a sheet cannot be to scale; expected a projected system, or unit= in --sheet");
+  return asked.unit_metres.value_or(crs.horizontal_metres > 0.0 ? crs.horizontal_metres : 1.0);
+}
+
+void require_sheet_pixels(double width, double height, std::size_t splats) {
+  const std::string found =
+      "the sheet would be " + number_text(width) + " x " + number_text(height) + " pixels";
+  const std::string instead = ": a scale of a larger number, fewer dpi, or --keep-box";
+  if (!(width <= MOST_PIXELS && height <= MOST_PIXELS))
+    throw Error(ExitCode::usage,
+                found + ", expected at most " + number_text(MOST_PIXELS) + " a side" + instead);
+  const double most = FREE_PIXELS + SPLAT_PIXELS * static_cast<double>(splats);
+  if (width * height > most)
+    throw Error(ExitCode::usage, found + " for a scene of " + std::to_string(splats) +
+                                     " splats, expected at most " + number_text(std::round(most / 1e6)) +
+                                     " million pixels" + instead);
+}
 
 Sheet make_sheet(const Scene& scene, const Request& request) {
   Sheet sheet;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace splatray {
 namespace {
@@ -49,6 +50,23 @@ Shot frame_shot(const Shot& shot, std::uint32_t frame) {
   return turned;
 }
 
+void show_sheet(const Sheet& sheet, Shot& shot) {
+  shot.view.width = sheet.width;
+  shot.view.height = sheet.height;
+  shot.view.window = window_of(shot.request.view, sheet.width, sheet.height);
+  shot.view.camera = sheet.camera();
+  shot.settings.region = region_of(shot.request.view.region, sheet.up);
+  for (const HalfSpace& plane : sheet.planes()) shot.settings.region.kept.push_back(plane);
+}
+
+Shot sheet_shot(const Shot& shot, std::size_t index) {
+  Sheet sheet = shot.sheet_set()->sheets[index];
+  Shot one = shot;
+  show_sheet(sheet, one);
+  one.output = std::move(sheet);
+  return one;
+}
+
 Camera frame_camera(const Shot& shot, std::uint32_t frame, const Scene& scene) {
   const auto* sequence = std::get_if<Sequence>(&shot.output);
   if (sequence == nullptr) return shot.view.camera;
@@ -68,8 +86,24 @@ std::vector<Camera> all_cameras(const Shot& shot, const Scene& scene) {
     return orbit_cameras(shot.view.camera, shot.request.look.up.value_or(scene.up), orbit->columns,
                          orbit->rows);
   std::vector<Camera> cameras;
+  if (const SheetSet* set = shot.sheet_set()) {
+    for (const Sheet& sheet : set->sheets) cameras.push_back(sheet.camera());
+    return cameras;
+  }
   for (const SequenceFrame& frame : shot.frames) cameras.push_back(frame_camera(shot, frame.number, scene));
   return cameras;
+}
+
+std::vector<View> all_views(const Shot& shot, const Scene& scene) {
+  std::vector<View> views;
+  for (const Camera& camera : all_cameras(shot, scene))
+    views.push_back({camera, shot.view.width, shot.view.height});
+  if (const SheetSet* set = shot.sheet_set())
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      views[i].width = set->sheets[i].width;
+      views[i].height = set->sheets[i].height;
+    }
+  return views;
 }
 
 std::string choices_text(const Shot& shot) {

@@ -33,10 +33,12 @@ struct Shot {
   std::string environment{};  ///< name of the environment, as load_environment takes it; empty = studio
   bool exposes = false;       ///< the exposure is left to the picture: expose() chooses it
   std::vector<SequenceFrame> frames{};  ///< the pictures and their files
-  std::variant<Still, Sequence, Orbit, Sheet> output{};
+  std::variant<Still, Sequence, Orbit, Sheet, SheetSet> output{};
 
   /// The drawing, or null.
   [[nodiscard]] const Sheet* sheet() const { return std::get_if<Sheet>(&output); }
+  /// Several drawings of one file, or null.
+  [[nodiscard]] const SheetSet* sheet_set() const { return std::get_if<SheetSet>(&output); }
   [[nodiscard]] bool is_sequence() const { return std::holds_alternative<Sequence>(output); }
   [[nodiscard]] bool is_orbit() const { return std::holds_alternative<Orbit>(output); }
   /// Whether the picture goes through the denoiser.
@@ -49,15 +51,22 @@ struct Shot {
 /// camera, as the key light does. Other environments are places that the camera goes around in.
 [[nodiscard]] Shot frame_shot(const Shot& shot, std::uint32_t frame);
 
+/// Has the shot show a sheet: its pixels, its camera, and of the region what it shows.
+void show_sheet(const Sheet& sheet, Shot& shot);
+/// The shot of one of a set's sheets.
+[[nodiscard]] Shot sheet_shot(const Shot& shot, std::size_t index);
+
 /// The camera of a frame of the shot.
 [[nodiscard]] Camera frame_camera(const Shot& shot, std::uint32_t frame, const Scene& scene);
 /// That of the first of all frames, though it may not be asked for.
 [[nodiscard]] Camera first_camera(const Shot& shot, const Scene& scene);
 
-/// Those of all pictures; of an orbit: about the still one's target, as far away, `columns` all around at each of `rows` heights, one:
+/// Those of all pictures, of a set of sheets one for each; of an orbit: about the still one's target, as far away, `columns` all around at each of `rows` heights, one:
 /// its own, several: from ORBIT_LOWEST_DEG to ORBIT_HIGHEST_DEG above the horizon, row by row from the lowest.
 inline constexpr double ORBIT_LOWEST_DEG = 10.0, ORBIT_HIGHEST_DEG = 65.0;
 [[nodiscard]] std::vector<Camera> all_cameras(const Shot& shot, const Scene& scene);
+/// These cameras with their whole pictures' sizes.
+[[nodiscard]] std::vector<View> all_views(const Shot& shot, const Scene& scene);
 
 /// The choices as options of splatray-render, "--view inside --look scan"; empty where there are none.
 [[nodiscard]] std::string choices_text(const Shot& shot);

@@ -150,6 +150,8 @@ std::string sheet_sentence(const SheetRequest& sheet) {
              place_text(sheet.place, 2, 2) + ", looking to its left.";
     case SheetKind::elevation:
       return "An elevation, seen from " + side_text(sheet.place.front()) + ".";
+    case SheetKind::atlas:
+      return "A plan of each floor.";
     case SheetKind::ortho:
       break;
   }

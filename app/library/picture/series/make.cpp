@@ -9,6 +9,7 @@
 #include "app/library/picture/reproduce.h"
 #include "app/library/picture/series/film.h"
 #include "app/library/picture/series/orbit.h"
+#include "app/library/picture/series/sheets.h"
 #include "app/library/request/command_line.h"
 #include "app/library/sheet/sheet_files.h"
 #include "engine/base/error.h"
@@ -114,7 +115,8 @@ std::filesystem::path unfinished_file(std::filesystem::path picture) {
 
 SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListener& listener) {
   if (shot.is_orbit()) return make_orbit(shot, shown, listener);
-  if (shot.sheet() != nullptr) require_page(shot);
+  if (shot.sheet() != nullptr || shot.sheet_set() != nullptr) require_page(shot);
+  if (shot.sheet_set() != nullptr) return make_sheets(shot, shown, listener);
   const FilmFolder folder(shot.request.output);
   SequenceRecord record;
   std::size_t before = 0;
@@ -133,7 +135,8 @@ SequenceRecord make(const Shot& shot, SceneOnDevice& shown, const SequenceListen
     }
     ++before;
   }
-  if (!shot.request.output.film.empty() && record.failed.empty()) write_film(shot.request.output, shot.frames);
+  if (!shot.request.output.film.empty() && record.failed.empty())
+    write_film(shot.request.output, shot.frames);
   return record;
 }
 

@@ -19,13 +19,14 @@ Field sheet_row() {
       "a drawing to scale: plan[:z=HEIGHT], cut at that height; section:X0,Y0,X1,Y1, along that line, "
       "looking to its "
       "left; elevation:north|east|south|west|DEGREES, from that side; ortho:DX,DY,DZ, in that direction; "
-      "with "
+      "atlas[:above=HEIGHT], a page of each floor, cut 1.2 m above it; with "
       "depth=D behind the cut, scale=50 for 1:50, dpi=300, weight=0.35 for the cut's lines in mm, "
       "hatch=1.5 for the hatching of what is cut in mm, contours=INTERVAL of heights in a plan, "
       "level=Z for marks of floors and ceilings that count from that height, "
       "unit=m|cm|mm|ft|us-ft "
       "where the file does not say, of a page paper=A4|A3|A2|A1|A0 and portrait or landscape, by default the "
-      "smallest that holds the drawing; a pixel is 25.4 mm / dpi x scale; a region limits it",
+      "smallest that holds the drawing; further views for the page behind ; each, in the same scale; a pixel "
+      "is 25.4 mm / dpi x scale; a region limits it",
       [](Request& request, const std::string& text) { request.view.sheet = read_sheet(text); },
       [](const Request& request) {
         return request.view.sheet ? sheet_text(*request.view.sheet) : std::string();
