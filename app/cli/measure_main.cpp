@@ -1,4 +1,4 @@
-/// splatray-measure: a scene and places in, lengths, heights, angles, areas and radii out, each with its uncertainty.
+/// splatray-measure: a scene and places in, lengths, heights, angles, areas, radii and volumes out, each with its uncertainty.
 #include <algorithm>
 #include <cstdio>
 
@@ -74,6 +74,11 @@ void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
   add(MeasureKind::sphere, "radius of the sphere within REACH of a place", "PLACE;REACH");
   add(MeasureKind::cylinder, "radius of the cylinder within REACH of a place", "PLACE;REACH");
   add(MeasureKind::plane, "tilt from level of the plane within REACH", "PLACE;REACH");
+  add(MeasureKind::volume,
+      "cut and fill between the surface and a base; BASE is z=HEIGHT, plane=X,Y,Z,NX,NY,NZ, earlier=FILE or "
+      "corners, the plane through the outline's places on the surface; without an outline over all that the "
+      "region holds",
+      "[PLACE;PLACE;PLACE...;]BASE");
   list.add_repeated(
       "--name",
       [&measures](const std::string& text) {
@@ -113,6 +118,8 @@ std::optional<Asked> parse(int argc, char** argv) {
                       "from wall to wall, along rays from the scanner"},
                      {"splatray-measure room.e57 --vertical '1,2,0;1,2,2.5' --name door",
                       "a height between two places, with a name"},
+                     {"splatray-measure heap.laz --volume '0,0,0;9,0,0;9,9,0;0,9,0;corners'",
+                      "a heap over the plane through its foot"},
                      {"splatray-measure pipes.laz --cylinder '4.1,0.3,1.2;0.15' -o pipe.dxf",
                       "a pipe's radius, for a drawing"}});
   if (!list.parse(argc, argv)) return {};

@@ -385,7 +385,7 @@ struct MeasureValue {
   std::string name;  ///< such as "distance", "horizontal", "area", "perimeter", "radius", "x"
   double value = 0.0;
   double within = 0.0;
-  std::string unit;  ///< "length" (world units), "area" or "degrees"
+  std::string unit;  ///< "length" (world units), "area", "volume" or "degrees"
 };
 struct Measure {
   std::vector<Double3> points{};  ///< the places on the surface
@@ -394,11 +394,15 @@ struct Measure {
 /// What is measured, and how.
 struct Measuring {
   /// A point (its coordinates), the distance along two and more, the horizontal distance of two, the vertical one, which is the height of
-  /// a second above a first ("height" before), the angle at the second of three, the area of the polygon of three and more, the radius of a sphere or cylinder around one.
+  /// a second above a first ("height" before), the angle at the second of three, the area of the polygon of three and more, the radius of a sphere or cylinder around one, the
+  /// tilt of a plane around one, the volume over an outline of three and more or, without places, over all.
   std::string kind = "distance";
   std::vector<MeasurePlace> places{};
   /// Spheres and cylinders are fitted to the surface within this distance of the place, world units.
   double reach = 0.0;
+  /// What a volume's surface is compared with, as --volume has it: "z=HEIGHT", "plane=X,Y,Z,NX,NY,NZ", "corners", the plane through the
+  /// places on the surface, or "earlier=FILE".
+  std::string base{};
 };
 /// Measures what the request's region ("keep-box", "drop-box", "cut") holds, as splatray-measure does. Throws Error (usage)
 /// for places that make no such measure, (failed) where there is nothing.

@@ -82,8 +82,9 @@ using PythonValue = std::tuple<std::string, double, double, std::string>;
 
 /// Points (n, 3), and name, value, within, unit of each value.
 nb::tuple measure(const api::Scene& scene, const std::string& kind, const std::vector<PythonPlace>& places,
-                  double reach, const api::Request& request, const nb::object& progress) {
-  api::Measuring measuring{kind, {}, reach};
+                  double reach, const std::string& base, const api::Request& request,
+                  const nb::object& progress) {
+  api::Measuring measuring{kind, {}, reach, base};
   for (const auto& [at, direction] : places) measuring.places.push_back({at, direction});
   const api::Progress relay = progress_of(progress);
   api::Measure measure = unlocked([&] { return api::measure(scene, measuring, request, relay); });
@@ -193,8 +194,8 @@ void add_scene(nb::module_& module) {
            nb::arg("progress").none())
       .def("occluded", occluded<float>, nb::arg("origins"), nb::arg("directions"), nb::arg("t_max"),
            nb::arg("progress").none())
-      .def("measure", measure, nb::arg("kind"), nb::arg("places"), nb::arg("reach"), nb::arg("request"),
-           nb::arg("progress").none());
+      .def("measure", measure, nb::arg("kind"), nb::arg("places"), nb::arg("reach"), nb::arg("base"),
+           nb::arg("request"), nb::arg("progress").none());
   module.def("open", open, nb::arg("files"), nb::arg("request"), nb::arg("progress").none());
   module.def("make_picture", make_picture, nb::arg("request"), nb::arg("progress").none());
 }

@@ -92,6 +92,21 @@ def main():
     assert ["TEXT", "Haus \u00c4 \u2300"] in found["texts"] and ["TEXT", "1 : 50"] in found["texts"], found["texts"]
     assert any(layer == "MEASURES" for layer, _, _ in found["polylines"])
 
+    # An atlas of its one floor, cut over the boards, and views side by side.
+    sheets = {"atlas": "atlas:above=1.1,unit=m", "views": "plan:z=100.6,unit=m;section:1000,2000.5,1002,2000.5;elevation:south"}
+    for name, sheet in sheets.items():
+        subprocess.run([render, "--quiet", points, "-o", folder / f"{name}.dxf", "--up", "0,0,1", "--sheet", sheet], check=True)
+    atlas, views = (read(python, folder / f"{name}.dxf") for name in sheets)
+    (floor,) = [abs(area([[x - LOW[0], y - LOW[1]] for x, y in line])) for layer, closed, line in atlas["polylines"] if layer == "FLOOR1-CUT"]
+    print(f"area of the floor's cut: {floor:.4f}")
+    assert abs(floor - 2.0) < 0.01 and not [layer for layer in atlas["layers"] if layer.startswith("FLOOR2")]
+    assert any(layer == "FLOOR1-TEXT" and text.startswith("Floor at height 100.00") for layer, text in atlas["texts"]), atlas["texts"]
+    areas = sorted(abs(area([[x - LOW[0], y - LOW[1]] for x, y in line])) for layer, closed, line in views["polylines"] if layer == "CUT" and closed)
+    print("areas of the views' cuts:", areas)
+    assert len(areas) == 3 and abs(areas[1] - 2.0) < 0.01 and abs(areas[2] - 2.4) < 0.015, "plan 2 x 1, section 2 x 1.2, ball"
+    for caption in "1  Plan", "2  Section", "3  Elevation":
+        assert any(text.startswith(caption) for _, text in views["texts"]), views["texts"]
+
     dxf = folder / "measures.dxf"
     subprocess.run([measure, points, "-o", dxf, "--sphere", f"{ball};0.5"], check=True)
     (center, radius), = read(python, dxf)["circles"]

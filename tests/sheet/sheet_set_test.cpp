@@ -12,6 +12,7 @@
 #include "app/library/sheet/text_block.h"
 #include "app/library/shot/sheet_set.h"
 #include "engine/base/error.h"
+#include "engine/base/number_text.h"
 #include "preprocess/build.h"
 #include "tests/sheet/sheet_of_ball.h"
 
@@ -116,6 +117,7 @@ TEST(Atlas, HasAPageForEachFloorInOneFrame) {
   ASSERT_EQ(pages.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     const Sheet &sheet = atlas.sheets[i], &first = atlas.sheets[0];
+    EXPECT_LT(number_text(*sheet.asked.height).size(), 8U) << "a round number";
     EXPECT_NEAR(*sheet.asked.height, BASE + STOREY * static_cast<double>(i) + 1.2, 0.003);
     EXPECT_EQ(sheet.corner, first.corner);
     EXPECT_EQ(glm::uvec2(sheet.width, sheet.height), glm::uvec2(first.width, first.height));

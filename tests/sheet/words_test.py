@@ -16,7 +16,8 @@ BLOCK = "project=Waterworks;number=WW-2026-0117;sheet=3/12;revision=c;author=N. 
 # Sheet, title and title block.
 PAGES = [("plan:scale=50", "Hall", ""), ("plan:scale=20,paper=A3", LONG, BLOCK), ("plan:scale=200,portrait", "Hall", BLOCK),
          ("plan:scale=10,paper=A1,landscape", LONG, ""), ("elevation:south,scale=1000", "W" * 300, BLOCK),
-         ("section:-1,0,1,0,scale=2", "Hall", BLOCK)]
+         ("section:-1,0,1,0,scale=2", "Hall", BLOCK), ("plan:z=0.6,scale=20,level=0;section:-1,0,1,0;elevation:south;plan", LONG, BLOCK),
+         ("plan:scale=100,paper=A4;elevation:west;elevation:12.5", "Hall", "")]
 
 READ = """
 import json, sys
@@ -59,7 +60,7 @@ def main():
         for extension in "pdf", "svg":
             names.append(folder / f"page{i}.{extension}")
             subprocess.run([render, "--quiet", folder / "box.xyz", "-o", names[-1], "--up", "0,0,1", "--samples", "1",
-                            "--sheet", sheet + ",dpi=20", "--title", title, *(("--title-block", block) if block else ())], check=True)
+                            "--sheet", sheet.replace("scale=", "dpi=20,scale="), "--title", title, *(("--title-block", block) if block else ())], check=True)
     pdfs, svgs = names[::2], names[1::2]
     pages = json.loads(subprocess.run([python, "-c", READ, *pdfs], check=True, capture_output=True, text=True).stdout)
     for name, page, (_, title, block) in zip(pdfs, pages, PAGES):

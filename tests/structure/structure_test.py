@@ -51,7 +51,7 @@ CHOSEN = {"view": (r"\bchoose_viewpoint\(", {"app/library/shot/scene_facts.cpp"}
           "noise": (r"\bresolve_denoise\(|\bremove_noise\(", {"app/library/shot/resolve.cpp", "app/library/picture/make_picture.cpp",
                                                                        "app/view/thread/progressive.cpp"}),
           "lights": (r"\bdefault_lights\(|\bheadlight\(", {"app/library/shot/lights.cpp", "app/library/shot/picture_lights.cpp"}),
-          "a drawing's place": (r"\bmake_sheet\(", {"app/library/shot/resolve.cpp"})}
+          "a drawing's place": (r"\bmake_sheet\(", {"app/library/shot/resolve.cpp", "app/library/shot/sheet_set.cpp"})}
 CHOOSERS = {"app/library/display_image.cpp", "app/library/picture/denoise.cpp", "app/library/shot/sheet_placement.cpp",
             "engine/image/framing.cpp", "engine/image/lights.cpp", "engine/image/upright.cpp"}
 # Comments that begin with "Of", of a thing that they leave unsaid: as of today, and fewer.

@@ -25,11 +25,12 @@ GivenMeasure given_measure(const Measuring& measuring) {
   const std::optional<MeasureKind> kind = measure_kind(measuring.kind);
   if (!kind)
     refuse("a measure '" + measuring.kind + "'",
-           "point, distance, horizontal, vertical, angle, area, sphere or cylinder");
+           "point, distance, horizontal, vertical, angle, area, sphere, cylinder, plane or volume");
   GivenMeasure given{*kind, {}, std::isfinite(measuring.reach) ? measuring.reach : 0.0};
   for (const MeasurePlace& place : measuring.places)
     given.places.push_back(given_place(place, given.places.size()));
   try {
+    if (!measuring.base.empty()) given.base = read_base(measuring.base);
     require_places(given);
   } catch (const Expected& expected) {
     refuse(std::to_string(given.places.size()) + " places of " + measuring.kind + " and a reach of " +
@@ -40,7 +41,7 @@ GivenMeasure given_measure(const Measuring& measuring) {
 }
 
 const char* unit_name(MeasureUnit unit) {
-  constexpr std::array NAMES = {"length", "area", "degrees"};
+  constexpr std::array NAMES = {"length", "area", "degrees", "volume"};
   return NAMES[static_cast<std::size_t>(unit)];
 }
 

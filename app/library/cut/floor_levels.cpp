@@ -12,12 +12,15 @@ namespace {
 
 constexpr double LEVEL_COSINE = 0.985;                     ///< of 10 degrees
 constexpr double HALF_METRES = 0.01, APART_METRES = 0.15;  ///< of a level, and between two
-constexpr double LEAST_PART = 0.1;                         ///< of the area of all that is level
-/// Of the area of the largest floor, which does not depend on how many floors there are.
+constexpr double LEAST_OF_LEVEL = 0.1;                     ///< of the area of all that is level
+/// Least part of the largest floor's area, which does not depend on how many floors there are.
 constexpr double LEAST_OF_LARGEST = 0.1;
-/// Of the area within APART_METRES that faces up: an even slope has HALF_METRES / APART_METRES, 0.07, in a level, a floor with noise of
+/// Least part of the area within APART_METRES that faces up: an even slope has HALF_METRES / APART_METRES, 0.07, in a level, a floor with noise of
 /// 3 cm a quarter.
 constexpr double LEAST_OF_AROUND = 0.2;
+/// Least part of all that is level and faces up that lies within APART_METRES of the storeys' floors: of land, which has a level here and
+/// there, a quarter does where these are 1.2 m apart.
+constexpr double LEAST_OF_STOREYS = 0.5;
 
 struct LevelPart {
   double height, area;
@@ -111,7 +114,7 @@ std::vector<double> levels_of(const LevelParts& parts, double unit_metres, const
 std::vector<double> floor_levels(const Scene& scene, const Region& region, const glm::dvec3& up,
                                  double unit_metres) {
   const LevelParts parts(level_parts(scene, region, up));
-  const double least = LEAST_PART * parts.area();
+  const double least = LEAST_OF_LEVEL * parts.area();
   return levels_of(parts, unit_metres, [least](const LevelWindow& window, double) {
     return window.area >= least ? std::optional(true) : std::nullopt;
   });
@@ -136,7 +139,9 @@ std::vector<double> storey_floors(const Scene& scene, const Region& region, cons
   std::vector<double> storeys;
   for (const double height : levels_of(up_parts, unit_metres, is_floor))
     if (storeys.empty() || height >= storeys.back() + above) storeys.push_back(height);
-  return storeys;
+  double of_storeys = 0.0;
+  for (const double height : storeys) of_storeys += up_parts.area(height - apart, height + apart);
+  return of_storeys >= LEAST_OF_STOREYS * up_parts.area() ? storeys : std::vector<double>();
 }
 
 }  // namespace splatray

@@ -12,7 +12,6 @@ namespace {
 constexpr double ROUNDED = 1e-4;  ///< of an error: three steps of a splat's normal (OCT_SCALE), radians
 /// Share of the widest interval beside it, below which an interval comes of the error of the normal, a degree.
 constexpr double NEGLIGIBLE = 0.02;
-constexpr double OF_95_PERCENT = 1.96;  ///< standard deviations of a normal distribution
 
 using Places = std::vector<glm::dvec3>;
 
@@ -73,6 +72,16 @@ std::vector<MeasureValue> plane_values(const Measure& measure, const glm::dvec3&
           {"residual", measure.plane->residual, 0.0, MeasureUnit::length}};
 }
 
+std::vector<MeasureValue> volume_values(const Measure& measure) {
+  if (!measure.volume) return {};
+  const VolumeFound& found = *measure.volume;
+  return {{"cut", found.cut, found.cut_within, MeasureUnit::volume},
+          {"fill", found.fill, found.fill_within, MeasureUnit::volume},
+          {"net", found.net(), found.net_within, MeasureUnit::volume},
+          {"covered", found.area, 0.0, MeasureUnit::area},
+          {"uncovered", found.uncovered, 0.0, MeasureUnit::area}};
+}
+
 std::vector<MeasureValue> own_values(const Measure& measure, const glm::dvec3& up) {
   if (measure.points.size() < points_needed(measure.kind)) return {};
   const auto value = [&measure](const char* name, const std::function<double(const Places&)>& of,
@@ -110,6 +119,8 @@ std::vector<MeasureValue> own_values(const Measure& measure, const glm::dvec3& u
       return radius_values(measure);
     case MeasureKind::plane:
       return plane_values(measure, up);
+    case MeasureKind::volume:
+      return volume_values(measure);
   }
   return {};
 }
@@ -118,7 +129,7 @@ std::vector<MeasureValue> own_values(const Measure& measure, const glm::dvec3& u
 
 const char* measure_name(MeasureKind kind) {
   static constexpr std::array NAMES = {"point", "distance", "horizontal", "vertical", "angle",
-                                       "area",  "sphere",   "cylinder",   "plane"};
+                                       "area",  "sphere",   "cylinder",   "plane",    "volume"};
   return NAMES.at(static_cast<std::size_t>(kind));
 }
 
@@ -129,11 +140,13 @@ std::optional<MeasureKind> measure_kind(const std::string& name) {
 }
 
 std::size_t points_needed(MeasureKind kind) {
-  static constexpr std::array<std::size_t, MEASURE_KINDS> NEEDED = {1, 2, 2, 2, 3, 3, 1, 1, 1};
+  static constexpr std::array<std::size_t, MEASURE_KINDS> NEEDED = {1, 2, 2, 2, 3, 3, 1, 1, 1, 0};
   return NEEDED.at(static_cast<std::size_t>(kind));
 }
 
-bool is_open_ended(MeasureKind kind) { return kind == MeasureKind::distance || kind == MeasureKind::area; }
+bool is_open_ended(MeasureKind kind) { return kind == MeasureKind::distance || is_outline(kind); }
+
+bool is_outline(MeasureKind kind) { return kind == MeasureKind::area || kind == MeasureKind::volume; }
 
 bool is_fitted(MeasureKind kind) {
   return kind == MeasureKind::sphere || kind == MeasureKind::cylinder || kind == MeasureKind::plane;

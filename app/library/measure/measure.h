@@ -9,6 +9,7 @@
 
 #include "app/library/measure/plane_fit.h"
 #include "app/library/measure/radius_fit.h"
+#include "app/library/measure/volume_found.h"
 
 namespace splatray {
 
@@ -32,9 +33,13 @@ enum class MeasureKind {
   area,        ///< of the polygon of three and more
   sphere,      ///< its radius
   cylinder,    ///< its radius
-  plane        ///< its tilt: the angle to a level one
+  plane,       ///< its tilt: the angle to a level one
+  volume       ///< cut and fill over an outline, against a base
 };
-inline constexpr int MEASURE_KINDS = 9;
+inline constexpr int MEASURE_KINDS = 10;
+inline constexpr int MARKED_KINDS = 9;  ///< the first ones, which their points alone make
+/// Standard deviations of a normal distribution to either side that hold 95 % of it.
+inline constexpr double OF_95_PERCENT = 1.96;
 [[nodiscard]] const char* measure_name(MeasureKind kind);
 /// What a vertical measure was called before.
 inline constexpr const char* OLD_VERTICAL = "height";
@@ -45,14 +50,17 @@ inline constexpr const char* OLD_VERTICAL = "height";
 [[nodiscard]] bool is_open_ended(MeasureKind kind);
 /// Whether it is of what lies around its point: spheres, cylinders and planes.
 [[nodiscard]] bool is_fitted(MeasureKind kind);
+/// Whether its points go all around: of areas and volumes.
+[[nodiscard]] bool is_outline(MeasureKind kind);
 
 /// A measure, maybe of too few points yet.
 struct Measure {
   MeasureKind kind = MeasureKind::distance;
   std::vector<SurfacePoint> points;
-  std::optional<RadiusFit> fit{};   ///< of spheres and cylinders
-  std::optional<PlaneFit> plane{};  ///< of planes
-  std::string name{};               ///< given by who measures, UTF-8; may be empty
+  std::optional<RadiusFit> fit{};       ///< of spheres and cylinders
+  std::optional<PlaneFit> plane{};      ///< of planes
+  std::string name{};                   ///< given by who measures, UTF-8; may be empty
+  std::optional<VolumeFound> volume{};  ///< of volumes
 
   bool operator==(const Measure&) const = default;
 };
@@ -69,7 +77,7 @@ void add_point(std::vector<Measure>& measures, MeasureKind kind, const SurfacePo
 /// Area of a polygon whose corners need not lie in one plane exactly: half the length of its vector area (Newell).
 [[nodiscard]] double polygon_area(std::span<const glm::dvec3> points);
 
-enum class MeasureUnit { length, area, degrees };
+enum class MeasureUnit { length, area, degrees, volume };
 
 /// A value, and the half-width of its 95 % confidence interval, as errors of points propagate to
 /// it (JCGM 100:2008, sec. 5): of the surface, as smooth_error has it, not of the scans' registration and scale.

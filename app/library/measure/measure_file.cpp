@@ -24,7 +24,7 @@ Json geometry_of(const Measure& measure) {
   Json places = Json::array();
   for (const SurfacePoint& point : measure.points) places.push_back(json_vector(point.place));
   if (measure.points.size() == 1) return {{"type", "Point"}, {"coordinates", places[0]}};
-  if (measure.kind != MeasureKind::area) return {{"type", "LineString"}, {"coordinates", places}};
+  if (!is_outline(measure.kind)) return {{"type", "LineString"}, {"coordinates", places}};
   places.push_back(places[0]);
   return {{"type", "Polygon"}, {"coordinates", Json::array({places})}};
 }
@@ -45,6 +45,14 @@ Json properties_of(const Measure& measure, std::size_t id, const MeasureFrame& f
     errors.push_back(json_vector(point.error));
     sideways.push_back(json_vector(point.sideways));
   }
+  if (const std::optional<VolumeFound>& found = measure.volume)
+    properties["volume_found"] = {{"cut", found->cut},
+                                  {"fill", found->fill},
+                                  {"cut_within", found->cut_within},
+                                  {"fill_within", found->fill_within},
+                                  {"net_within", found->net_within},
+                                  {"covered", found->area},
+                                  {"uncovered", found->uncovered}};
   properties["errors"] = errors;
   properties["errors_sideways"] = sideways;
   if (measure.plane) {
@@ -79,13 +87,13 @@ glm::dvec3 vector_of(const Json& json) {
           json.size() > 2 ? json.at(2).get<double>() : 0.0};
 }
 
-/// A property; null where there is none. Some programs keep lists as texts of JSON.
+/// A property; null where there is none. Some programs keep lists and objects as texts of JSON.
 Json property(const Json& feature, const char* name) {
   const Json& properties = feature.at("properties");
   if (!properties.is_object() || !properties.contains(name)) return nullptr;
   const Json& value = properties.at(name);
-  if (!value.is_string() || !value.get<std::string>().starts_with('[')) return value;
-  return Json::parse(value.get<std::string>());
+  const std::string text = value.is_string() ? value.get<std::string>() : std::string();
+  return text.starts_with('[') || text.starts_with('{') ? Json::parse(text) : value;
 }
 
 struct Geometry {
@@ -140,6 +148,10 @@ Measure measure_of(const Json& feature) {
     measure.plane = PlaneFit{vector_of(property(feature, "middle")), vector_of(property(feature, "normal")),
                              property(feature, "fitted_residual"), property(feature, "turn_error"),
                              property(feature, "fitted_points")};
+  if (const Json found = property(feature, "volume_found"); found.is_object())
+    measure.volume = VolumeFound{found.at("cut"),         found.at("fill"),       found.at("cut_within"),
+                                 found.at("fill_within"), found.at("net_within"), found.at("covered"),
+                                 found.at("uncovered")};
   const Json center = property(feature, "center");
   if (center.is_null()) return measure;
   const auto number = [&feature](const char* first, const char* old) {
@@ -190,7 +202,7 @@ std::string dxf_text(std::span<const Measure> measures, const MeasureFrame& fram
       dxf.point(MEASURES_LAYER, points[i].place);
       if (i > 0) dxf.line(MEASURES_LAYER, points[i - 1].place, points[i].place);
     }
-    if (measure.kind == MeasureKind::area && points.size() > 2)
+    if (is_outline(measure.kind) && points.size() > 2)
       dxf.line(MEASURES_LAYER, points.back().place, points.front().place);
     if (measure.fit) dxf.circle(MEASURES_LAYER, measure.fit->center, measure.fit->radius, measure.fit->axis);
     dxf.text(MEASURES_LAYER, middle, height, labelled_text(measure, frame));

@@ -13,7 +13,7 @@ namespace splatray {
 namespace {
 
 constexpr double FINEST_METRES = 1e-4, FINEST_DEG = 1e-3;  ///< that are told apart without an interval
-/// The least interval that is written, metres or square metres, and degrees: what the finest scanners tell apart. Across a point's error its
+/// The least interval that is written, metres, square or cubic metres, and degrees: what the finest scanners tell apart. Across a point's error its
 /// place follows from rounded numbers alone.
 constexpr double LEAST_WITHIN = 1e-5, LEAST_WITHIN_DEG = 1e-4;
 
@@ -33,8 +33,9 @@ int finest_decimals(MeasureUnit unit, double unit_metres) {
 
 /// The interval that is written.
 double written_within(double within, MeasureUnit unit, double unit_metres) {
-  const double factor = unit == MeasureUnit::area ? unit_metres * unit_metres : unit_metres;
-  return std::max(within, unit == MeasureUnit::degrees ? LEAST_WITHIN_DEG : LEAST_WITHIN / factor);
+  const double power = unit == MeasureUnit::volume ? 3.0 : (unit == MeasureUnit::area ? 2.0 : 1.0);
+  return std::max(
+      within, unit == MeasureUnit::degrees ? LEAST_WITHIN_DEG : LEAST_WITHIN / std::pow(unit_metres, power));
 }
 
 /// A cell of comma-separated values.
@@ -81,7 +82,8 @@ std::string length_symbol(double unit_metres) {
 
 std::string unit_symbol(MeasureUnit unit, double unit_metres) {
   if (unit == MeasureUnit::degrees) return "\u00B0";
-  return length_symbol(unit_metres) + (unit == MeasureUnit::area ? "\u00B2" : "");
+  const char* power = unit == MeasureUnit::volume ? "\u00B3" : (unit == MeasureUnit::area ? "\u00B2" : "");
+  return length_symbol(unit_metres) + power;
 }
 
 int decimals_of(double within) {
@@ -131,6 +133,8 @@ std::string short_text(const Measure& measure, const MeasureFrame& frame) {
       text += (text.empty() ? "" : ", ") + value_words(value, metres).value;
     return text + " " + length_symbol(metres);
   }
+  if (measure.kind == MeasureKind::volume)
+    return "cut " + value_text(values[0], metres) + ", fill " + value_text(values[1], metres);
   const std::string sign = measure.kind == MeasureKind::area ? "A " : (measure.fit ? "R " : "");
   return sign + value_text(values.front(), metres);
 }

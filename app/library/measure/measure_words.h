@@ -19,7 +19,7 @@ struct MeasureFrame {
 [[nodiscard]] double unit_metres(const MeasureFrame& frame);
 /// "m", "ft" and so on; "units" for a length that has no name.
 [[nodiscard]] std::string length_symbol(double unit_metres);
-/// "m", "m²", "°".
+/// "m", "m²", "m³", "°".
 [[nodiscard]] std::string unit_symbol(MeasureUnit unit, double unit_metres);
 
 /// Decimals with which the half-width of an interval has two significant digits, -300 to 15; below 0 so many digits before the point
@@ -38,7 +38,7 @@ struct ValueWords {
 [[nodiscard]] ValueWords value_words(const MeasureValue& value, double unit_metres);
 /// "12.3457 ±0.0023 m".
 [[nodiscard]] std::string value_text(const MeasureValue& value, double unit_metres);
-/// What stands beside the marks in the picture: the value, with A before an area and R before a radius; a point's coordinates.
+/// What stands beside the marks in the picture: the value, with A before an area and R before a radius; a point's coordinates, a volume's cut and fill.
 [[nodiscard]] std::string short_text(const Measure& measure, const MeasureFrame& frame);
 /// The name before it, where the measure has one.
 [[nodiscard]] std::string labelled_text(const Measure& measure, const MeasureFrame& frame);

@@ -4,6 +4,7 @@
 
 #include "app/library/measure/surface_point.h"
 #include "app/library/picture/aimed_ray.h"
+#include "app/library/picture/volume_measure.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
 
@@ -47,12 +48,17 @@ SurfacePoint snapped(const Scene& scene, const Region& region, const GivenMeasur
 
 Measure take_measure(const Scene& scene, const Region& region, const GivenMeasure& given,
                      SceneOnDevice* shown) {
-  Measure measure{given.kind, {}, {}, {}, given.name};
+  Measure measure{.kind = given.kind, .points = {}, .name = given.name};
   for (const GivenPlace& place : given.places) {
     assert(!place.direction || shown != nullptr);
-    measure.points.push_back(place.direction ? first_hit(*shown, scene, region, place)
-                                             : snapped(scene, region, given, place.place));
+    // An outline is anywhere above or below the surface, unless the base is laid through its corners.
+    if (!place.direction && given.base && given.base->kind != GivenBase::Kind::corners)
+      measure.points.push_back({place.place});
+    else
+      measure.points.push_back(place.direction ? first_hit(*shown, scene, region, place)
+                                               : snapped(scene, region, given, place.place));
   }
+  if (given.base) take_volume(scene, region, *given.base, measure);
   if (!is_fitted(given.kind)) return measure;
   if (!fit_near(scene, region, measure.points[0].place, given.reach, measure))
     throw Error(ExitCode::failed,

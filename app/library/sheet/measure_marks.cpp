@@ -46,7 +46,7 @@ glm::dvec2 draw_marks(MeasureKind kind, const std::vector<glm::dvec2>& places, D
     view.boxes.push_back({at - glm::dvec2(0.5 * MARK), glm::dvec2(MARK)});
   }
   for (std::size_t i = 1; i < places.size(); ++i) view.lines.push_back({places[i - 1], places[i], MARK_LINE});
-  if (kind == MeasureKind::area) view.lines.push_back({places.back(), places.front(), MARK_LINE});
+  if (is_outline(kind)) view.lines.push_back({places.back(), places.front(), MARK_LINE});
   return middle;
 }
 

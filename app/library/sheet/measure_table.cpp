@@ -24,10 +24,12 @@ std::vector<Row> table_rows(std::span<const MeasureRow> rows) {
   std::vector<Row> all = {{"No.", "Name", "Kind", "Value", "\u00B1 (95 %)", "Unit"}};
   std::size_t last = 0;
   for (const MeasureRow& row : rows) {
-    const bool is_point = row.kind == measure_name(MeasureKind::point), is_main = row.id != last;
+    const bool has_all =
+        row.kind == measure_name(MeasureKind::point) || row.kind == measure_name(MeasureKind::volume);
+    const bool is_main = row.id != last;
     last = row.id;
-    if (is_point || is_main)
-      all.push_back({std::to_string(row.id), row.name, is_point ? "point, " + row.quantity : row.kind,
+    if (has_all || is_main)
+      all.push_back({std::to_string(row.id), row.name, has_all ? row.kind + ", " + row.quantity : row.kind,
                      row.words.value, row.words.within, row.words.unit});
   }
   return all;

@@ -39,7 +39,7 @@ void add_measure(const Part& part, std::size_t id, const Measure& measure, DxfWr
     middle += places.back() / static_cast<double>(measure.points.size());
     dxf.point(layer, {places.back(), 0.0});
   }
-  dxf.polyline(layer, places, measure.kind == MeasureKind::area);
+  dxf.polyline(layer, places, is_outline(measure.kind));
   dxf.text(layer, {middle, 0.0}, part.letter_height(),
            std::to_string(id) + ": " + labelled_text(measure, measure_frame(part.sheet)));
 }

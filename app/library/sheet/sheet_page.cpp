@@ -161,7 +161,7 @@ Layout made_to_measure(const std::vector<Content>& pages) {
   return {paper, columns, foot_size(pages, paper.name, paper.frame().x).y};
 }
 
-/// Of the ways in which the drawing fits on a paper the one that leaves the most room around it; nothing where none does.
+/// How the drawing fits on a paper with the most room around it; nothing where it does not.
 std::optional<Layout> fitted(const std::vector<Content>& pages, const Paper& paper) {
   const glm::dvec2 frame = paper.frame(), foot = foot_size(pages, paper.name, frame.x);
   std::optional<Layout> best;

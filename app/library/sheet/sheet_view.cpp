@@ -16,7 +16,7 @@ namespace splatray {
 namespace {
 
 // Millimetres.
-constexpr double TICK = 2.0, GRID_LEAST = 30.0, CROSS = 1.5, BESIDE = 0.6;
+constexpr double TICK = 2.0, GRID_LEAST = 30.0, CROSS = 1.5, LABEL_BESIDE = 0.6;
 constexpr double BEHIND = 3.0;  ///< room to the right and below
 
 /// Where a line of the grid lies on the paper, from the window's corner, and its coordinate.
@@ -51,7 +51,7 @@ void add_label(const GridLine& line, bool upwards, const std::array<double, 2>& 
   const double at = line.at_mm + (upwards ? view.rasters.front().corner.y : view.rasters.front().corner.x);
   if (at - half < room[0] || at + half > room[1]) return;
   const double across =
-      (upwards ? view.rasters.front().corner.x : view.rasters.front().corner.y) - TICK - BESIDE;
+      (upwards ? view.rasters.front().corner.x : view.rasters.front().corner.y) - TICK - LABEL_BESIDE;
   view.texts.push_back({upwards ? glm::dvec2(across, at) : glm::dvec2(at, across), LABEL_SIZE_MM,
                         TextAnchor::middle, line.label, upwards});
 }
@@ -160,7 +160,7 @@ glm::dvec2 in_window(const Sheet& sheet, const PixelWindow& window, const glm::d
 
 Drawing sheet_view(const Sheet& sheet, const PixelWindow& window) {
   Drawing view;
-  const double before = TICK + BESIDE + line_height(LABEL_SIZE_MM);
+  const double before = TICK + LABEL_BESIDE + line_height(LABEL_SIZE_MM);
   view.rasters.emplace_back();
   view.rasters.front().corner = glm::dvec2(before);
   view.rasters.front().size = glm::dvec2(window.width, window.height) * sheet.pixel_mm();

@@ -30,13 +30,13 @@ std::vector<Sheet> floor_plans(const Scene& scene, const Request& request) {
                above = asked.above.value_or(ABOVE_METRES / metres);
   const Region region = region_of(request.view.region, up);
   std::vector<Sheet> plans;
-  const double step = std::pow(10.0, std::round(std::log10(STEP_METRES / metres)));
+  const double steps = std::pow(10.0, std::round(std::log10(metres / STEP_METRES)));  // in a unit
   for (const double found : storey_floors(scene, region, glm::normalize(up), metres, above)) {
-    const double floor = std::round(found / step) * step;
+    const double floor = std::round(found * steps) / steps;
     SheetRequest plan = asked;
     plan.kind = SheetKind::plan;
     plan.above.reset();
-    plan.height = std::round((floor + above) / step) * step;
+    plan.height = std::round((floor + above) * steps) / steps;
     plans.push_back(sheet_of(scene, request, plan));
     plans.back().floor = floor;
   }

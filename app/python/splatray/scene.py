@@ -208,19 +208,21 @@ class Scene:
         core = self._open_core()
         return core.occluded(*_rays(origins, directions, t_max), _check.progress(progress))
 
-    def measure(self, kind: Literal["point", "distance", "horizontal", "vertical", "angle", "area", "sphere", "cylinder"], places: Sequence[Any], *,
-                reach: float = 0.0, request: Optional[Request] = None, progress: Optional[_check.Progress] = None) -> Measure:
+    def measure(self, kind: Literal["point", "distance", "horizontal", "vertical", "angle", "area", "sphere", "cylinder", "plane", "volume"], places: Sequence[Any], *,
+                reach: float = 0.0, base: str = "", request: Optional[Request] = None, progress: Optional[_check.Progress] = None) -> Measure:
         """Measures on the surface, as splatray-measure does: each value with its interval.
 
         places: each (x, y, z), which goes to the nearest surface, or ((x, y, z), (dx, dy, dz)), a ray, whose first hit counts: one, two and
-        more, two, two, three, or three and more of them. reach: of spheres and cylinders, how far around the place, world units. request: its
-        region (keep_box, drop_box, cut).
+        more, two, two, three, or three and more of them; of volumes the outline, or none for all that the region holds. reach: of spheres,
+        cylinders and planes, how far around the place, world units. base: of volumes, what the surface is compared with: "z=HEIGHT",
+        "plane=X,Y,Z,NX,NY,NZ", "corners" (the plane through the places on the surface) or "earlier=FILE". request: its region (keep_box,
+        drop_box, cut).
         """
         core = self._open_core()
         if isinstance(places, (str, bytes)) or not isinstance(places, Iterable):
             raise TypeError(f"places: found {places!r}, expected a list of places")
         asked = Request() if request is None else request
-        points, values = core.measure(kind, [_place(place) for place in places], float(reach), asked._core, _check.progress(progress))
+        points, values = core.measure(kind, [_place(place) for place in places], float(reach), base, asked._core, _check.progress(progress))
         return Measure(points, {name: MeasureValue(*rest) for name, *rest in values})
 
 

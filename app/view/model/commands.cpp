@@ -52,7 +52,7 @@ void next_section(Document& document, PanelState& state) {
 
 void next_measure(PanelState& state) {
   const int next = state.measuring ? static_cast<int>(*state.measuring) + 1 : 0;
-  state.measuring = next < MEASURE_KINDS ? std::optional(static_cast<MeasureKind>(next)) : std::nullopt;
+  state.measuring = next < MARKED_KINDS ? std::optional(static_cast<MeasureKind>(next)) : std::nullopt;
   state.notice =
       state.measuring ? std::string("measure: ") + measure_name(*state.measuring) : "measure: none";
 }

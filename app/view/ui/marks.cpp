@@ -104,8 +104,7 @@ void measure_marks(const Document& document, Marks& marks) {
     std::vector<glm::dvec3> places;
     for (const SurfacePoint& point : measure.points) places.push_back(point.place);
     for (std::size_t i = 1; i < places.size(); ++i) marks.line(places[i - 1], places[i], MEASURE);
-    if (measure.kind == MeasureKind::area && places.size() > 2)
-      marks.line(places.back(), places.front(), MEASURE);
+    if (is_outline(measure.kind) && places.size() > 2) marks.line(places.back(), places.front(), MEASURE);
     for (const glm::dvec3& place : places) marks.dot(place, MEASURE, 0.9F * DOT_EM);
     const bool at_corner = measure.kind == MeasureKind::angle;
     marks.text(at_corner ? places[places.size() / 2] : places.back(),

@@ -9,7 +9,7 @@ namespace splatray {
 namespace {
 
 void kind_buttons(PanelState& state) {
-  for (int i = 0; i < MEASURE_KINDS; ++i) {
+  for (int i = 0; i < MARKED_KINDS; ++i) {
     const auto kind = static_cast<MeasureKind>(i);
     if (i % 3 != 0) ImGui::SameLine();
     const bool on = state.measuring == kind;
