@@ -28,7 +28,7 @@ def write_room(path):
 def opened(dxf):
     """What LibreCAD says of a drawing beside what it says of any; its page lies beside it."""
     try:
-        ran = subprocess.run(["librecad", "dxf2pdf", dxf.name], cwd=dxf.parent, capture_output=True, text=True, timeout=60,
+        ran = subprocess.run(["librecad", "dxf2pdf", dxf.name], cwd=dxf.parent, capture_output=True, text=True, timeout=20,
                              env=dict(os.environ, QT_QPA_PLATFORM="offscreen"))
     except subprocess.TimeoutExpired:  # a message waits for its button
         return ["a message"]

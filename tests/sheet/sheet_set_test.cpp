@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "app/library/cut/curve_window.h"
 #include "app/library/cut/floor_levels.h"
 #include "app/library/request/consistent.h"
 #include "app/library/sheet/sheet_dxf.h"
@@ -185,6 +186,20 @@ TEST(Views, LieInOneScaleWithWallsAndFloorsInLine) {
   const std::string dxf = sheets_dxf(set, {"House", {}}, {});
   for (const char* caption : {"1  Plan, cut at height 101.5", "2  Section", "3  Elevation", "4  Plan"})
     EXPECT_NE(dxf.find(caption), std::string::npos) << caption;
+}
+
+TEST(CurveWithin, IsWhatARectangleShows) {
+  const CutCurve square{{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}, true, 0.1};
+  const std::vector<CutCurve> whole = curve_within(square, {-1.0, -1.0}, {3.0, 3.0});
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_TRUE(whole[0].closed);
+  const std::vector<CutCurve> left = curve_within(square, {-1.0, -1.0}, {1.0, 3.0});
+  ASSERT_EQ(left.size(), 1U) << "one part around the curve's beginning";
+  EXPECT_EQ(left[0].points, (std::vector<glm::dvec2>{{1.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}, {1.0, 0.0}}));
+  const std::vector<CutCurve> middle = curve_within(square, {0.5, -1.0}, {1.5, 3.0});
+  ASSERT_EQ(middle.size(), 2U);
+  EXPECT_EQ(middle[0].points, (std::vector<glm::dvec2>{{0.5, 0.0}, {1.5, 0.0}}));
+  EXPECT_TRUE(curve_within(square, {0.5, 0.5}, {1.5, 1.5}).empty());
 }
 
 TEST(Views, TakePaperThatHoldsThem) {

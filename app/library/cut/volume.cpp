@@ -66,8 +66,7 @@ struct SeenHeights {
 struct Sums {
   double cut = 0.0, fill = 0.0, area = 0.0, uncovered = 0.0;
   double holes = 0.0;  ///< what the volumes may be off by in holes
-  double bends =
-      0.0;  ///< area times how far a cell's height is from a plane through its four neighbours', times 4
+  double bends = 0.0;  ///< area times what a cell's four neighbours lie above it, all together
 };
 
 /// One grid over the outline.

@@ -1,6 +1,9 @@
 #include "app/library/sheet/sheet_dxf.h"
 
+#include <array>
+
 #include "app/library/codec/dxf.h"
+#include "app/library/cut/curve_window.h"
 #include "app/library/sheet/height_marks.h"
 #include "app/library/sheet/measure_marks.h"
 #include "app/library/sheet/page_style.h"
@@ -26,6 +29,11 @@ struct Part {
   std::size_t number = 0;  ///< of its caption; 0 = it has none
 
   [[nodiscard]] glm::dvec2 at(const glm::dvec2& on_paper) const { return on_paper - sheet.origin + shift; }
+  /// Opposite corners of what the sheet shows, along its right and top.
+  [[nodiscard]] std::array<glm::dvec2, 2> shown() const {
+    const glm::dvec2 size = glm::dvec2(sheet.width, sheet.height) * sheet.pixel_world;
+    return {sheet.corner - glm::dvec2(0.0, size.y), sheet.corner + glm::dvec2(size.x, 0.0)};
+  }
   [[nodiscard]] std::string layer(const char* name) const { return prefix + name; }
   [[nodiscard]] double letter_height() const { return LETTERS_MM * sheet.mm_world(); }
 };
@@ -49,10 +57,22 @@ void add_measures(const Part& part, std::span<const Measure> measures, DxfWriter
     if (!measures[i].points.empty()) add_measure(part, i + 1, measures[i], dxf);
 }
 
+/// Adds what of a curve the sheet shows: of a section no more than its line is long.
 void add_curve(const Part& part, const CutCurve& curve, const char* layer, double height, DxfWriter& dxf) {
-  std::vector<glm::dvec2> points = curve.points;
-  for (glm::dvec2& point : points) point = part.at(point);
-  dxf.polyline(part.layer(layer), points, curve.closed, height);
+  const auto [low, high] = part.shown();
+  for (const CutCurve& shown : curve_within(curve, low, high)) {
+    std::vector<glm::dvec2> points = shown.points;
+    for (glm::dvec2& point : points) point = part.at(point);
+    dxf.polyline(part.layer(layer), points, shown.closed, height);
+  }
+}
+
+void add_hatch(const Part& part, DxfWriter& dxf) {
+  const auto [low, high] = part.shown();
+  for (const auto& [from, to] : part.sheet.hatch)
+    for (const CutCurve& shown : curve_within({{from, to}}, low, high))
+      dxf.line(part.layer(HATCH_LAYER), {part.at(shown.points.front()), 0.0},
+               {part.at(shown.points.back()), 0.0});
 }
 
 /// Contours at their heights, and level marks beside an upright sheet.
@@ -75,8 +95,7 @@ void add_drawing(const Part& part, DxfWriter& dxf) {
   for (const CutCurve& curve : sheet.cut_curves) add_curve(part, curve, CUT_LAYER, 0.0, dxf);
   for (const CutCurve& curve : sheet.beyond) add_curve(part, curve, BEYOND_LAYER, 0.0, dxf);
   for (const CutCurve& curve : sheet.overhead) add_curve(part, curve, HIDDEN_LAYER, 0.0, dxf);
-  for (const auto& [from, to] : sheet.hatch)
-    dxf.line(part.layer(HATCH_LAYER), {part.at(from), 0.0}, {part.at(to), 0.0});
+  add_hatch(part, dxf);
   add_heights(part, dxf);
 }
 
