@@ -115,15 +115,14 @@ std::vector<bool> find_computed(const Cloud& cloud) {
   return computed;
 }
 
-/// Estimates unknown normals; scans are freed of strays and noise, too.
-void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const Progress& progress,
-                       BuildStats& stats) {
+/// Estimates unknown normals; scans, which stand along `up`, unit, are freed of strays and noise, too.
+void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const glm::dvec3& up,
+                       const Progress& progress, BuildStats& stats) {
   const AddedTime watch(stats.normals_ms);
   std::size_t station = 0;  // of the scene: the object's first
   for (std::size_t object = 0; object < clouds.size(); ++object) {
     Cloud& cloud = clouds[object];
     std::size_t stations = cloud.stations.size();
-    const glm::dvec3 up = glm::normalize(scene.up);
     const Stage stage{"normals", progress};
     require_stage_memory(stage.name, cloud.size(), cloud.measured ? SCAN_BYTES : SEARCH_BYTES);
     const std::uint64_t estimated = cloud.measured ? find_scan_surface(cloud, up, scene.build, stage, stats)
@@ -156,6 +155,13 @@ PointSample sample_of(const std::vector<Cloud>& clouds) {
       sample.normal.emplace_back(cloud.normal[i]);
     }
   return sample;
+}
+
+/// Which way scans stand, unit, before the sides of their normals are known, which follow from it.
+glm::dvec3 up_of_scans(const std::vector<Cloud>& clouds, const Scene& scene, bool up_said) {
+  const bool measured =
+      std::any_of(clouds.begin(), clouds.end(), [](const Cloud& cloud) { return cloud.measured; });
+  return measured && !up_said ? upright_places(main_parts(sample_of(clouds))).up : glm::normalize(scene.up);
 }
 
 /// Which way a model stands whose format does not say. A scan's is found where it is shown, by its stations and its kind.
@@ -339,7 +345,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   std::vector<Cloud> clouds = make_clouds(input, scene.object_names, stats);
   if (!scene.camera) scene.camera = camera_of_scan(clouds);
   const std::optional<RootTransform> lattice = kept_lattice(clouds, params);
-  find_all_surfaces(clouds, scene, progress, stats);
+  find_all_surfaces(clouds, scene, up_of_scans(clouds, scene, up_said), progress, stats);
   require_points(clouds, stats);
   if (!up_said) stand_up(clouds, scene, stats);
   find_bounds(clouds, scene);

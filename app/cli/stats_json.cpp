@@ -60,6 +60,13 @@ Json choices_json(const Shot& shot) {
   return json;
 }
 
+/// Which way a scene stands, what decided that, and the number by which.
+Json up_json(const UpFound& found) {
+  return {{"direction", {found.up.x, found.up.y, found.up.z}},
+          {"by", up_evidence_name(found.by)},
+          {"figure", found.figure}};
+}
+
 /// The views of a scan that were tried, each with the figure that decided.
 Json views_json(const Shot& shot) {
   Json json = Json::array();
@@ -114,6 +121,7 @@ void write_stats(const Shot& shot, const LoadedScene& loaded, const PoolCounts& 
         {"error", sum.stats.error},
         {"seed", settings.seed}}},
       {"choices", choices_json(shot)},
+      {"up", up_json(loaded.facts.up)},
       {"views", views_json(shot)},
       {"times_ms",
        {{"device", times.device_ms},

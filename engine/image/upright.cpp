@@ -1,6 +1,7 @@
 #include "engine/image/upright.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -18,12 +19,17 @@ constexpr double THIN = 0.5;                         ///< a sweep's height over 
 constexpr double OPEN_LEAST = 0.06, OPEN_MOST = 0.25, OPEN_TIMES = 3.0;
 constexpr double BASE_SHARE = 0.03, BASE_TIMES = 3.0, BASE_HEIGHT = 0.03, BASE_OUTSIDE = 0.005,
                  BASE_DEG = 15.0;
+constexpr double SURVEY_LEAST = 1e4, SURVEY_SIZES = 10.0, SURVEY_HEIGHT = 0.1;
+/// Height over width: ten sites have at most 0.25, 18 things with y up at least 0.44 along z.
+constexpr double TERRAIN = 0.3;
 constexpr double WALL = 0.3;  ///< height over width of what is too flat to stand
 
 /// Fractions of the height, of the points at each end and of the outline, and a multiple of the other axis's. Of 33 known models they turn the
 /// six that stand along z, statues and busts on 0.27 to 0.76 of their outline, and none of those along y, which stand on 0 to 0.27
 /// of it along z.
 constexpr double FOOT_HEIGHT = 0.05, FOOT_OUTSIDE = 0.0025, FOOT_SHARE = 0.25, FOOT_TIMES = 2.0;
+/// A plinth is all foot, while one of its sides is at most 0.7 of the outline from there, as the statue is higher.
+constexpr double FOOT_WHOLE = 0.95, FOOT_PART = 0.75;
 /// The mean of the normals of what was seen from one side alone is longer: a half ball's is 0.5.
 constexpr double ONE_SIDED = 0.4;
 
@@ -61,21 +67,22 @@ std::optional<int> ring_axis(const Scene& scene) {
   return ring && around ? std::optional(flat) : std::nullopt;
 }
 
-std::optional<glm::dvec3> up_of_ring(const Scene& scene, const PointSample& sample) {
+std::optional<UpFound> up_of_ring(const Scene& scene, const PointSample& sample) {
   const std::optional<int> axis = ring_axis(scene);
   if (!axis) return {};
-  return signed_axis(mean_normal(sample)[*axis] < 0.0 ? *axis + 3 : *axis);
+  return UpFound{signed_axis(mean_normal(sample)[*axis] < 0.0 ? *axis + 3 : *axis), UpEvidence::ring};
 }
 
 /// Up of a sweep without a known place.
-std::optional<glm::dvec3> up_of_sweep(const Scene& scene, const PointSample& sample) {
+std::optional<UpFound> up_of_sweep(const Scene& scene, const PointSample& sample) {
   if (first_sensor(scene)) return {};
   const glm::dvec3 size = robust_size(sample, glm::dmat3(1.0));
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(size[axis] < THIN * std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]))) continue;
+    const double thin = size[axis] / std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+    if (!(thin < THIN)) continue;
     const bool own = std::abs(scene.up[axis]) > 0.5 * glm::length(scene.up);
     const glm::dvec3 up = own ? scene.up : signed_axis(axis);
-    if (is_sweep(scene, sample, upright_axes(up))) return up;
+    if (is_sweep(scene, sample, upright_axes(up))) return UpFound{up, UpEvidence::sweep, thin};
   }
   return {};
 }
@@ -120,31 +127,40 @@ bool holds(const std::vector<glm::dvec2>& hull, const glm::dvec2& place) {
   return hull.size() > 2;
 }
 
-/// Whether a thing stands on the end of another up direction than its format's, and plainly not on that of its own. What is flat along
-/// it lies, and what was seen from there alone has no other side: neither stands.
-bool stands_better(const glm::dvec3& up, const glm::dvec3& own, const PointSample& sample) {
+/// How a thing stands on the end of another up direction than its format's, where it plainly does not on that of its own; else 0. What
+/// is flat along it lies, and what was seen from there alone has no other side: neither stands.
+double stands_better(const glm::dvec3& up, const glm::dvec3& own, const PointSample& sample) {
   const glm::dvec3 size = robust_size(sample, upright_axes(up));
-  if (size.y < WALL * std::min(size.x, size.z) || glm::dot(mean_normal(sample), up) > ONE_SIDED) return false;
-  return stands_on(sample, up) > std::max(FOOT_SHARE, FOOT_TIMES * stands_on(sample, own));
+  if (size.y < WALL * std::min(size.x, size.z)) return 0.0;
+  const double share = stands_on(sample, up), of_own = stands_on(sample, own);
+  const bool better = share > std::max(FOOT_SHARE, FOOT_TIMES * of_own);
+  return better || (share > FOOT_WHOLE && of_own < FOOT_PART) ? share : 0.0;
 }
 
 /// Up of what stands on its end by the other of the two directions that programs take for up, y and z.
-std::optional<glm::dvec3> up_of_feet(const glm::dvec3& own, const PointSample& sample) {
+std::optional<UpFound> up_of_feet(const glm::dvec3& own, const PointSample& sample) {
   const glm::dvec3 y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
-  if (own == y && stands_better(z, own, sample)) return z;
-  if (own == z && stands_better(y, own, sample)) return y;
-  return {};
+  if (own != y && own != z) return {};
+  const glm::dvec3 other = own == y ? z : y;
+  const double share = stands_better(other, own, sample);
+  return share > 0.0 ? std::optional(UpFound{other, UpEvidence::feet, share}) : std::nullopt;
+}
+
+/// The same of things whose normals are known: not what was seen from the other direction alone.
+std::optional<UpFound> up_of_whole(const glm::dvec3& own, const PointSample& sample) {
+  const auto found = up_of_feet(own, sample);
+  return found && glm::dot(mean_normal(sample), found->up) <= ONE_SIDED ? found : std::nullopt;
 }
 
 /// Up of what is open below.
-std::optional<glm::dvec3> up_of_opening(const Scene& scene, const PointSample& sample) {
+std::optional<UpFound> up_of_opening(const Scene& scene, const PointSample& sample) {
   const glm::dvec3 mean = mean_normal(sample);
   for (int axis = 0; axis < 3; ++axis) {
     const double along = std::abs(mean[axis]);
     const double across = std::max(std::abs(mean[(axis + 1) % 3]), std::abs(mean[(axis + 2) % 3]));
     const glm::dvec3 up = signed_axis(mean[axis] < 0.0 ? axis + 3 : axis);
     if (along > OPEN_LEAST && along < OPEN_MOST && along > OPEN_TIMES * across && !is_opposite(up, scene))
-      return up;
+      return UpFound{up, UpEvidence::opening, along};
   }
   return {};
 }
@@ -162,9 +178,9 @@ double base_share(const PointSample& sample, const glm::dvec3& up) {
 }
 
 /// Up of what stands on something flat.
-glm::dvec3 up_of_base(const Scene& scene, const PointSample& sample, bool room) {
+UpFound up_of_base(const Scene& scene, const PointSample& sample, bool room) {
   const glm::dvec3 own = glm::normalize(scene.up);
-  glm::dvec3 best = scene.up;
+  UpFound best{scene.up};
   double most = std::max(BASE_SHARE, BASE_TIMES * base_share(sample, own));
   for (int number = 0; number < 6; ++number) {
     const glm::dvec3 up = signed_axis(number), size = robust_size(sample, upright_axes(up));
@@ -173,7 +189,7 @@ glm::dvec3 up_of_base(const Scene& scene, const PointSample& sample, bool room) 
     const double share = base_share(sample, up);
     if (share <= most) continue;
     most = share;
-    best = up;
+    best = {up, UpEvidence::base, share};
   }
   return best;
 }
@@ -201,21 +217,48 @@ std::string up_note(const glm::dvec3& up) {
          " by the shape of the points, not by their format; --up=X,Y,Z says otherwise";
 }
 
-glm::dvec3 upright_model(const PointSample& sample) {
-  const glm::dvec3 own(0.0, 1.0, 0.0);
-  return up_of_feet(own, sample).value_or(own);
+const char* up_evidence_name(UpEvidence evidence) {
+  static constexpr std::array NAMES = {"asked",  "format", "camera", "ring",    "sweep",
+                                       "survey", "sheet",  "feet",   "opening", "base"};
+  return NAMES[static_cast<std::size_t>(evidence)];
 }
 
-glm::dvec3 upright(const Scene& scene) {
+glm::dvec3 upright_model(const PointSample& sample) {
+  const glm::dvec3 own(0.0, 1.0, 0.0);
+  return up_of_whole(own, sample).value_or(UpFound{own}).up;
+}
+
+std::optional<UpFound> up_of_survey(const PointSample& sample) {
+  if (sample.size() == 0) return {};
+  const glm::dvec3 z(0.0, 0.0, 1.0), size = robust_size(sample, glm::dmat3(1.0));
+  const auto [low, high] = range_along(sample.position, z, FOOT_OUTSIDE);
+  const glm::dvec3 middle = glm::abs(sample.position[sample.size() / 2]);
+  const double away = std::max(middle.x, middle.y), widest = std::max({size.x, size.y, size.z});
+  if (away > std::max(SURVEY_LEAST, SURVEY_SIZES * widest) && middle.z < SURVEY_HEIGHT * away)
+    return UpFound{z, UpEvidence::survey, away / widest};
+  const double width = std::min(size.x, size.y), flat = size.z / width;
+  const bool ahead = low > TERRAIN * width || high < -TERRAIN * width;
+  return flat < TERRAIN && !ahead ? std::optional(UpFound{z, UpEvidence::sheet, flat}) : std::nullopt;
+}
+
+UpFound upright_places(const PointSample& sample) {
+  const glm::dvec3 own(0.0, 1.0, 0.0);
+  if (const auto up = up_of_survey(sample)) return *up;
+  return up_of_feet(own, sample).value_or(UpFound{own});
+}
+
+UpFound upright(const Scene& scene) {
   const SceneKind kind = kind_of_scan(scene);
-  if (kind == SceneKind::none || scene.camera) return scene.up;
+  if (kind == SceneKind::none || scene.camera) return {scene.up};
   const PointSample all = sample_points(scene), sample = main_parts(all);
-  if (is_camera_frame(scene, all)) return {0.0, -1.0, 0.0};
+  if (is_camera_frame(scene, all)) return {{0.0, -1.0, 0.0}, UpEvidence::camera};
   if (const auto up = up_of_ring(scene, sample)) return *up;
   if (const auto up = up_of_sweep(scene, all)) return *up;
-  if (kind != SceneKind::object && kind != SceneKind::room) return scene.up;
+  if (scene.up == glm::dvec3(0.0, 1.0, 0.0))
+    if (const auto up = up_of_survey(all)) return *up;
+  if (kind != SceneKind::object && kind != SceneKind::room) return {scene.up};
   if (kind == SceneKind::object) {
-    if (const auto up = up_of_feet(scene.up, sample)) return *up;
+    if (const auto up = up_of_whole(scene.up, sample)) return *up;
     if (const auto up = up_of_opening(scene, sample)) return *up;
   }
   return up_of_base(scene, sample, kind == SceneKind::room);

@@ -213,13 +213,14 @@ void ask_neighbours(const Cloud& cloud, const Survey& survey, const Parts& parts
   }
 }
 
-/// Whether much of the cloud lies in planes that all but few points are on one side of, and these are not all upright.
+/// Whether much of the cloud lies in planes that all but few points are on one side of, and there is a floor among these.
 bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
   constexpr std::size_t PLANES = 512, POINTS = 2000;
-  constexpr double LEVEL_SHARE =
-      0.03;  // of the planes' squared normals along the vertical: noise leaves 0.01
+  constexpr double FLOOR_SHARE =
+      0.03;  // of the planes' squared normals, of those that look up: noise leaves 0.01
   const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
-  std::vector<std::uint8_t> bounds(planes);
+  std::vector<std::int8_t> inwards(
+      planes);  // of planes that bound: the sign that turns their normals to the others
   tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
     const std::size_t i = p * cloud.size() / planes;
     const double near = 2.0 * survey.reach[i] + 0.002;
@@ -233,16 +234,18 @@ bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) 
       const bool alike = std::abs(glm::dot(cloud.normal[i], cloud.normal[j])) > ONE_PLANE_COSINE;
       within += alike && std::abs(height) <= near ? 1 : 0;
     }
-    bounds[p] = std::min(above, below) < points / 50 && within > points / 25;
+    const bool bounds = std::min(above, below) < points / 50 && within > points / 25;
+    inwards[p] = static_cast<std::int8_t>(!bounds ? 0 : above > below ? 1 : -1);
   });
-  const auto count = static_cast<double>(std::count(bounds.begin(), bounds.end(), 1));
+  const auto count = static_cast<double>(planes) -
+                     static_cast<double>(std::count(inwards.begin(), inwards.end(), std::int8_t{0}));
   if (!(count > ROOM_SHARE * static_cast<double>(planes))) return false;
-  double along_up = 0.0;
+  double floor = 0.0;
   for (std::size_t p = 0; p < planes; ++p) {
-    const double along = glm::dot(glm::dvec3(cloud.normal[p * cloud.size() / planes]), up);
-    along_up += bounds[p] != 0 ? along * along : 0.0;
+    const double along = inwards[p] * glm::dot(glm::dvec3(cloud.normal[p * cloud.size() / planes]), up);
+    floor += along > 0.0 ? along * along : 0.0;
   }
-  return along_up > LEVEL_SHARE * count;
+  return floor > FLOOR_SHARE * count;
 }
 
 /// The share of the free cells that are enclosed: is_room has the rule.

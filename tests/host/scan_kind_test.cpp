@@ -169,7 +169,7 @@ TEST(SceneKind, ACamerasFrameIsKnownByItsOrigin) {
                         glm::dvec3(0, 0, x % 2 == 0 ? 1 : -1));
   Scene scene = scan_scene(wall);
   EXPECT_EQ(kind_of_scan(scene), SceneKind::camera);
-  EXPECT_EQ(upright(scene), glm::dvec3(0, -1, 0));
+  EXPECT_EQ(upright(scene).up, glm::dvec3(0, -1, 0));
   EXPECT_EQ(seeing_place(scene, sample_points(scene)), glm::dvec3(0.0));
   OrientedPoints behind = wall;
   for (const auto& [position, normal] : wall) behind.emplace_back(1.5 * position, normal);
@@ -178,16 +178,17 @@ TEST(SceneKind, ACamerasFrameIsKnownByItsOrigin) {
   for (auto& [position, normal] : wall) position.x += 5.0;
   EXPECT_NE(kind_of_scan(scan_scene(wall)), SceneKind::camera) << "not along z";
   for (auto& [position, normal] : wall) normal.z = -1.0;
-  EXPECT_EQ(upright(scan_scene(wall)), glm::dvec3(0, -1, 0)) << "it faces down, as only a camera's frame can";
+  EXPECT_EQ(upright(scan_scene(wall)).up, glm::dvec3(0, -1, 0))
+      << "it faces down, as only a camera's frame can";
 }
 
 TEST(Upright, ThingsStandOnTheirFlatEnd) {
   for (const glm::dvec3 up :
        {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(-1, 0, 0)})
-    EXPECT_EQ(upright(scan_scene(cone(up))), up);
+    EXPECT_EQ(upright(scan_scene(cone(up))).up, up);
   Scene model = scan_scene(cone({0, 1, 0}));
   model.stations.clear();
-  EXPECT_EQ(upright(model), model.up) << "no scan";
+  EXPECT_EQ(upright(model).up, model.up) << "no scan";
 }
 
 /// A statue: a tall half ellipsoid with a nose, three times as high as wide, and its pedestal's edges; no scanner saw what it stands on.
@@ -216,7 +217,7 @@ TEST(Upright, StatuesStandOnTheirLowerEnd) {
     for (const glm::dvec3& format : {y, z}) {
       Scene scene = scan_scene(statue(up));
       scene.up = format;
-      EXPECT_EQ(upright(scene), up);
+      EXPECT_EQ(upright(scene).up, up);
     }
   }
 }
@@ -239,10 +240,45 @@ TEST(Upright, ModelsThatStandOnNeitherEndStayAsTheirFormatHasThem) {
 }
 
 TEST(Upright, RoomsAndTerrainStayAsTheirFormatHasThem) {
-  EXPECT_EQ(upright(scan_scene(box_points({4.0, 5.0, 3.0}, true))), glm::dvec3(0, 0, 1));
-  EXPECT_EQ(upright(scan_scene(ground(false))), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(upright(scan_scene(box_points({4.0, 5.0, 3.0}, true))).up, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(upright(scan_scene(ground(false))).up, glm::dvec3(0, 0, 1));
   OrientedPoints wall = box_points({4.0, 0.2, 3.0}, false);
-  EXPECT_EQ(upright(scan_scene(wall)), glm::dvec3(0, 0, 1)) << "a wall is no floor";
+  EXPECT_EQ(upright(scan_scene(wall)).up, glm::dvec3(0, 0, 1)) << "a wall is no floor";
+}
+
+/// A place's points in a format that says no up direction: the terrain of a survey, around a middle.
+PointSample terrain_around(const glm::dvec3& middle, double height) {
+  PointSample sample;
+  for (int i = 0; i < 5000; ++i)
+    sample.position.push_back(middle + glm::dvec3(100.0 * std::fmod(0.618034 * i, 1.0), 80.0 * i / 5000.0,
+                                                  height * std::fmod(0.754878 * i, 1.0)));
+  sample.normal.resize(sample.size(), glm::dvec3(0.0));
+  return sample;
+}
+
+TEST(Upright, TerrainAndSurveysHaveZUpWhereNothingIsSaid) {
+  const glm::dvec3 y(0, 1, 0), z(0, 0, 1);
+  const UpFound low = upright_places(terrain_around({-40.0, -30.0, -2.0}, 10.0));
+  EXPECT_EQ(low.up, z);
+  EXPECT_EQ(low.by, UpEvidence::sheet);
+  EXPECT_NEAR(low.figure, 10.0 / 80.0, 0.01);
+  EXPECT_EQ(upright_places(terrain_around({-40.0, -30.0, -2.0}, 60.0)).up, y) << "as high as wide";
+  EXPECT_EQ(upright_places(terrain_around({-40.0, -30.0, 90.0}, 10.0)).up, y)
+      << "a range finder may look along z";
+  const UpFound far = upright_places(terrain_around({4.5e5, 5.4e6, 300.0}, 60.0));
+  EXPECT_EQ(far.up, z);
+  EXPECT_EQ(far.by, UpEvidence::survey);
+  EXPECT_GT(far.figure, 1e4);
+  EXPECT_EQ(upright_places(terrain_around({4.5e3, 5.4e3, 300.0}, 60.0)).up, y) << "millimetres of a machine";
+  EXPECT_EQ(upright_places({}).up, y);
+}
+
+TEST(Upright, SaysWhatDecided) {
+  const UpFound found = upright(scan_scene(cone({0, 1, 0})));
+  EXPECT_NE(found.by, UpEvidence::format);
+  EXPECT_GT(found.figure, 0.0);
+  EXPECT_STREQ(up_evidence_name(UpEvidence::feet), "feet");
+  EXPECT_EQ(upright(scan_scene(box_points({4.0, 5.0, 3.0}, true))).by, UpEvidence::format);
 }
 
 TEST(Upright, ATurntablesRingShowsItsAxis) {
@@ -257,7 +293,8 @@ TEST(Upright, ATurntablesRingShowsItsAxis) {
   for (int i = 0; i < 6; ++i)
     scene.stations.push_back(
         {"", glm::dvec3(3.0 * std::cos(pi * i / 3.0), 0.1, 3.0 * std::sin(pi * i / 3.0)), 0, 0});
-  EXPECT_EQ(std::abs(upright(scene).y), 1.0);
+  EXPECT_EQ(std::abs(upright(scene).up.y), 1.0);
+  EXPECT_EQ(upright(scene).by, UpEvidence::ring);
 }
 
 TEST(MainParts, LeaveOutWhatIsSmallAndFarAway) {

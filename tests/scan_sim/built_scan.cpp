@@ -4,9 +4,10 @@
 
 namespace splatray::testing {
 
-BuiltScan build_scan(const Points& points, const BuildParams& params, unsigned threads) {
+BuiltScan build_scan(const Points& points, const BuildParams& params, unsigned threads,
+                     const std::optional<glm::dvec3>& up) {
   Input input;
-  input.up = glm::dvec3(0.0, 0.0, 1.0);
+  input.up = up;
   InputObject& object = input.objects.emplace_back();
   object.material = default_material();
   object.points = points;

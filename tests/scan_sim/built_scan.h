@@ -1,5 +1,6 @@
 /// A scan as preprocess builds it, whose splats can still be matched to its points.
 #pragma once
+#include <optional>
 #include <string_view>
 
 #include "preprocess/build.h"
@@ -14,9 +15,9 @@ struct BuiltScan {
   BuildStats stats;
 };
 
-/// Builds measured points alone, z up.
-[[nodiscard]] BuiltScan build_scan(const Points& points, const BuildParams& params = {},
-                                   unsigned threads = 0);
+/// Builds measured points alone, of a format that promises `up`, or nothing.
+[[nodiscard]] BuiltScan build_scan(const Points& points, const BuildParams& params = {}, unsigned threads = 0,
+                                   const std::optional<glm::dvec3>& up = glm::dvec3(0.0, 0.0, 1.0));
 
 /// The number of the point that a splat is.
 [[nodiscard]] std::size_t number_of(const Scene& scene, std::size_t splat);

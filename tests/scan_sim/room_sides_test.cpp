@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -58,9 +59,9 @@ struct SeenPoints {
   std::mt19937_64 random_{9};
 };
 
-/// The share of right sides.
-double right_sides(const SeenPoints& seen) {
-  const BuiltScan built = build_scan(seen.points);
+/// The share of right sides, in a format that promises `up`, or nothing.
+double right_sides(const SeenPoints& seen, const std::optional<glm::dvec3>& up = glm::dvec3(0.0, 0.0, 1.0)) {
+  const BuiltScan built = build_scan(seen.points, {}, 0, up);
   double right = 0.0;
   for (std::size_t s = 0; s < built.scene.data_pool.size(); ++s)
     right += glm::dot(glm::dvec3(unpack_splat(built.scene.data_pool[s]).normal),
@@ -76,6 +77,28 @@ TEST(RoomSides, AStatuesPlinthIsNoRoom) {
   seen.add_walls({-0.6, -0.6, 0.0}, {0.6, 0.6, 1.0}, /*out=*/true);
   seen.add({-0.6, -0.6, 1.0}, {1.2, 0, 0}, {0, 1.2, 0});
   seen.add_ball({0.0, 0.0, 1.5}, 0.45, 9000);
+  EXPECT_GT(right_sides(seen), 0.97);
+}
+
+/// A format that says no up direction has a statue as its program writes it, y up or z.
+TEST(RoomSides, AStatueOfUnknownUpIsNoRoom) {
+  for (const bool z_up : {true, false}) {
+    SeenPoints seen;
+    seen.step = 0.02;
+    seen.add_walls({-0.6, -0.6, 0.0}, {0.6, 0.6, 1.0}, /*out=*/true);
+    seen.add_ball({0.0, 0.0, 1.5}, 0.45, 9000);
+    if (!z_up)
+      for (std::vector<glm::dvec3>* all : {&seen.points.position, &seen.normal})
+        for (glm::dvec3& v : *all) v = {v.x, v.z, -v.y};
+    EXPECT_GT(right_sides(seen, std::nullopt), 0.97) << (z_up ? "z up" : "y up");
+  }
+}
+
+/// A lid bounds a body as a ceiling does a room, but nothing does from below.
+TEST(RoomSides, ABodyWithAFlatTopIsNoRoom) {
+  SeenPoints seen;
+  seen.add_walls({-1.0, -0.8, 0.0}, {1.0, 0.8, 1.2}, /*out=*/true);
+  seen.add({-1.0, -0.8, 1.2}, {2.0, 0, 0}, {0, 1.6, 0});
   EXPECT_GT(right_sides(seen), 0.97);
 }
 

@@ -276,8 +276,8 @@ Camera resolve_camera(const Scene& scene, const Request& request, double aspect)
   return camera;
 }
 
-glm::dvec3 resolve_up(const Scene& scene, const Request& asked) {
-  return asked.look.up.value_or(upright(scene));
+UpFound resolve_up(const Scene& scene, const Request& asked) {
+  return asked.look.up ? UpFound{*asked.look.up, UpEvidence::asked} : upright(scene);
 }
 
 AttributeOptions resolve_attributes(const Request& asked, const SceneFacts& facts) {

@@ -22,7 +22,7 @@ namespace splatray {
 [[nodiscard]] Shot draft(const Request& asked);
 
 /// The up direction of a scene as it was read: --up, else upright of upright.h.
-[[nodiscard]] glm::dvec3 resolve_up(const Scene& scene, const Request& asked);
+[[nodiscard]] UpFound resolve_up(const Scene& scene, const Request& asked);
 
 /// The attributes that a scene is shown in: those asked for, and the colours that suit it.
 [[nodiscard]] AttributeOptions resolve_attributes(const Request& asked, const SceneFacts& facts);

@@ -5,6 +5,7 @@
 
 #include "app/library/attributes.h"
 #include "engine/image/scan_kind.h"
+#include "engine/image/upright.h"
 #include "engine/image/view.h"
 #include "engine/image/view_check.h"
 #include "engine/scene/scene.h"
@@ -13,6 +14,7 @@ namespace splatray {
 
 struct SceneFacts {
   SceneKind kind = SceneKind::none;
+  UpFound up{};                            ///< the way that it stands, and what decided it
   Viewpoint viewpoint = Viewpoint::front;  ///< that suits it
   std::vector<CheckedView> views{};        ///< that were tried (check_views), the last of which is shown
   bool has_colors = false;                 ///< of its own that are not all alike

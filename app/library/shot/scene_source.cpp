@@ -48,9 +48,11 @@ void build(Input input, const Request& request, const LoadListener& listener, co
 void show_as_asked(const Request& request, const LoadListener& listener, LoadedScene& loaded) {
   Scene& scene = loaded.scene;
   scene.materials = choose_materials(scene, request);
-  const glm::dvec3 format_up = std::exchange(scene.up, resolve_up(scene, request));
+  const UpFound found = resolve_up(scene, request);
+  const glm::dvec3 format_up = std::exchange(scene.up, found.up);
   if (listener.note && !request.look.up && scene.up != format_up) listener.note(up_note(scene.up));
   loaded.facts = facts_of(scene);
+  loaded.facts.up = found;
   const AttributeOptions attributes = resolve_attributes(request, loaded.facts);
   if (request.look.attributes.color_by.empty()) loaded.facts.color_by = attributes.color_by;
   loaded.facts.legend = show_attributes(scene, attributes);

@@ -234,7 +234,7 @@ Scene PointSampler::small_scene() const {
   params.smooth_world = 0.0;
   BuildStats stats;
   Scene scene = build_scene(std::move(input), params, asked_.source.threads, stats);
-  scene.up = resolve_up(scene, asked_);
+  scene.up = resolve_up(scene, asked_).up;
   return scene;
 }
 
