@@ -49,6 +49,24 @@ std::vector<ScanKind> as_most_around(const std::vector<ScanKind>& kinds, const S
   return next;
 }
 
+/// ASPRS's codes of vegetation that has crowns, and of what lies under them.
+bool is_crown(double code) { return code == 4.0 || code == 5.0; }
+bool is_firm(double code) { return code == 2.0 || code == 6.0; }
+
+/// Crowns are scatter where the file's classes tell them from ground and buildings.
+void follow_classes(const Cloud& cloud, const Survey& survey, std::vector<ScanKind>& kinds) {
+  constexpr std::size_t TOLD = 100;  // one in so many points is firm: a file of one class tells nothing
+  const Column* column = find_column(cloud.columns, COLUMN_CLASS);
+  if (column == nullptr || column->size() != cloud.size()) return;
+  std::size_t firm = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) firm += is_firm(column->number(i)) ? 1 : 0;
+  if (firm * TOLD < cloud.size()) return;
+  tbb::parallel_for(std::size_t{0}, kinds.size(), [&](std::size_t i) {
+    if (survey.estimated[i] != 0 && kinds[i] == ScanKind::surface && is_crown(column->number(i)))
+      kinds[i] = ScanKind::scatter;
+  });
+}
+
 }  // namespace
 
 std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey) {
@@ -59,6 +77,7 @@ std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey) {
     kinds[i] = estimated ? kind_of(survey, static_cast<std::uint32_t>(i)) : ScanKind::surface;
   });
   for (int round = 0; round < VOTING_ROUNDS; ++round) kinds = as_most_around(kinds, survey);
+  follow_classes(cloud, survey, kinds);
   const bool all =
       std::all_of(kinds.begin(), kinds.end(), [](ScanKind kind) { return kind == ScanKind::surface; });
   return all ? std::vector<ScanKind>{} : kinds;

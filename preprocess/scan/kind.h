@@ -11,6 +11,8 @@ namespace splatray {
 /// lie along a line at every size are lines; those of which more than half are not flat, counting a point and its LISTED
 /// nearest places, are scatter, and in two rounds points do as most around them; all others, and all whose normals were given,
 /// are surface. Empty where all are surface, and for clouds of fewer than 1000 points, which are too few.
+/// Where the file's classes (COLUMN_CLASS) tell ground or buildings from medium and high vegetation, these say it of their points in
+/// place of neighbourhoods, which seem flatter the fewer points a crown has: vegetation is scatter, unless it is a line.
 [[nodiscard]] std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey);
 
 /// Gives points that are of no surface small round discs: `share` of the distance to the 6th place, at most twice what is usual

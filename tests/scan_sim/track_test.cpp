@@ -3,7 +3,9 @@
 
 #include <random>
 
+#include "engine/scene/splat.h"
 #include "preprocess/build.h"
+#include "preprocess/scan/sides.h"
 #include "tests/scan_sim/scan_cases.h"
 
 namespace splatray::testing {
