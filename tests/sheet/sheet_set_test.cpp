@@ -188,6 +188,23 @@ TEST(Views, LieInOneScaleWithWallsAndFloorsInLine) {
     EXPECT_NE(dxf.find(caption), std::string::npos) << caption;
 }
 
+TEST(Views, ShowEachMeasureWhereItIsLongest) {
+  const SheetSet set =
+      make_sheet_set(house(1), with_sheet("plan:z=101.5,scale=50,dpi=100;section:0,2,6,2;elevation:south"));
+  const auto line = [](const glm::dvec3& from, const glm::dvec3& to) {
+    return Measure{MeasureKind::distance, {{from}, {to}}};
+  };
+  const std::vector<Measure> measures = {line({1.0, 2.0, BASE + 1.0}, {3.0, 2.0, BASE + 1.0}),
+                                         line({2.0, 3.0, BASE}, {2.0, 3.0, BASE + 2.5}),
+                                         line({2.0, 3.0, BASE}, {99.0, 3.0, BASE})};
+  for (std::size_t view = 0; view < 3; ++view) {
+    const std::vector<Measure> shown = measures_of_sheet(set, view, measures);
+    EXPECT_EQ(!shown[0].points.empty(), view == 0) << "level, as long in all: in the plan";
+    EXPECT_EQ(!shown[1].points.empty(), view == 1) << "upright: in the section";
+    EXPECT_TRUE(shown[2].points.empty()) << "leaves all views";
+  }
+}
+
 TEST(CurveWithin, IsWhatARectangleShows) {
   const CutCurve square{{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}, true, 0.1};
   const std::vector<CutCurve> whole = curve_within(square, {-1.0, -1.0}, {3.0, 3.0});

@@ -157,7 +157,7 @@ std::string views_dxf(const SheetSet& set, const PageWords& words, std::span<con
   for (const Part& part : parts) {
     const std::string caption = std::to_string(part.number) + "  " + subject_text(part.sheet);
     add_drawing(part, dxf);
-    add_measures(part, measures, dxf);
+    add_measures(part, measures_of_sheet(set, part.number - 1, measures), dxf);
     if (part.number == 1)
       add_texts(part, page_lines(part.sheet, words.title, caption), dxf);
     else
@@ -173,7 +173,7 @@ std::string atlas_dxf(const SheetSet& atlas, const PageWords& words, std::span<c
   DxfWriter dxf = writer_for(parts);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     add_drawing(parts[i], dxf);
-    add_measures(parts[i], measures_of_floor(atlas, i, measures), dxf);
+    add_measures(parts[i], measures_of_sheet(atlas, i, measures), dxf);
     add_texts(parts[i], page_lines(parts[i].sheet, words.title, subject_text(parts[i].sheet)), dxf);
   }
   return dxf.str();

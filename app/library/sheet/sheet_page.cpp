@@ -234,6 +234,53 @@ std::string in_sentence(std::string text) {
 
 PixelWindow whole(const Sheet& sheet) { return {0, 0, sheet.width, sheet.height}; }
 
+std::vector<Measure> floor_measures(const SheetSet& atlas, std::size_t index,
+                                    std::span<const Measure> measures) {
+  const auto begin_of = [&atlas](std::size_t i) {
+    const Sheet& sheet = atlas.sheets[i];
+    return *sheet.floor - FLOOR_METRES / sheet.unit_metres;
+  };
+  std::vector<Measure> own(measures.begin(), measures.end());
+  for (Measure& measure : own) {
+    if (measure.points.empty()) continue;
+    double height = 0.0;
+    for (const SurfacePoint& point : measure.points)
+      height += glm::dot(point.place, glm::normalize(atlas.sheets[index].up)) /
+                static_cast<double>(measure.points.size());
+    const bool is_below = index > 0 && height < begin_of(index);
+    const bool is_above = index + 1 < atlas.sheets.size() && height >= begin_of(index + 1);
+    if (is_below || is_above) measure = {};
+  }
+  return own;
+}
+
+/// Length of a measure's lines on a sheet, world units; nothing where a point of it lies beside.
+std::optional<double> length_on(const Sheet& sheet, const Measure& measure) {
+  double length = 0.0;
+  std::optional<glm::dvec2> before;
+  for (const SurfacePoint& point : measure.points) {
+    const glm::dvec2 at = sheet.on_paper(point.place), pixel = sheet.pixel_of(at);
+    if (pixel.x < 0.0 || pixel.y < 0.0 || pixel.x > sheet.width || pixel.y > sheet.height) return {};
+    if (before) length += glm::distance(*before, at);
+    before = at;
+  }
+  return length;
+}
+
+/// The view that shows a measure the longest, the first of such; the views' count where none does.
+std::size_t view_of(const SheetSet& set, const Measure& measure) {
+  constexpr double LONGER = 1.01;  // as the first one has it
+  std::size_t best = set.sheets.size();
+  double longest = 0.0;
+  for (std::size_t i = 0; i < set.sheets.size(); ++i) {
+    const std::optional<double> length = length_on(set.sheets[i], measure);
+    if (!length || (best < set.sheets.size() && *length <= LONGER * longest)) continue;
+    best = i;
+    longest = *length;
+  }
+  return best;
+}
+
 Content floor_content(const SheetSet& atlas, std::size_t index, const PageWords& words,
                       std::span<const Measure> measures) {
   const Sheet& sheet = atlas.sheets[index];
@@ -241,18 +288,13 @@ Content floor_content(const SheetSet& atlas, std::size_t index, const PageWords&
   own.block.sheet += (own.block.sheet.empty() ? "" : " ") + std::to_string(index + 1) + "/" +
                      std::to_string(atlas.sheets.size());
   own.title += own.title.empty() ? floor_text(sheet) : ", " + in_sentence(floor_text(sheet));
-  return content_of(sheet, whole(sheet), own, measures_of_floor(atlas, index, measures));
+  return content_of(sheet, whole(sheet), own, floor_measures(atlas, index, measures));
 }
 
-/// Rows of measures that the content has not yet, as those that several views show.
+/// Adds what a view shows, by the measures' numbers.
 void add_rows(const ShownMeasures& shown, ShownMeasures& all) {
-  for (const std::string& note : shown.notes)
-    if (std::find(all.notes.begin(), all.notes.end(), note) == all.notes.end()) all.notes.push_back(note);
-  const std::vector<MeasureRow> before = all.rows;
-  for (const MeasureRow& row : shown.rows)
-    if (std::none_of(before.begin(), before.end(),
-                     [&row](const MeasureRow& other) { return other.id == row.id; }))
-      all.rows.push_back(row);
+  all.notes.insert(all.notes.end(), shown.notes.begin(), shown.notes.end());
+  all.rows.insert(all.rows.end(), shown.rows.begin(), shown.rows.end());
   std::stable_sort(all.rows.begin(), all.rows.end(),
                    [](const MeasureRow& a, const MeasureRow& b) { return a.id < b.id; });
 }
@@ -263,7 +305,8 @@ Content views_content(const SheetSet& set, const PageWords& words, std::span<con
   content.notes = sheet_notes(set.sheets.front(), PageOf::views);
   for (const Sheet& sheet : set.sheets) {
     ShownView view{&sheet, sheet_view(sheet, whole(sheet))};
-    add_rows(draw_measures(sheet, whole(sheet), measures, view.drawing), content.measures);
+    const std::vector<Measure> own = measures_of_sheet(set, content.views.size(), measures);
+    add_rows(draw_measures(sheet, whole(sheet), own, view.drawing), content.measures);
     view.drawing.size.x = std::max(view.drawing.size.x, CAPTION_LEAST);
     const Drawing caption = caption_block(content.views.size() + 1, sheet, view.drawing.size.x);
     add_block(caption, {0.0, view.drawing.size.y}, view.drawing);
@@ -300,23 +343,12 @@ std::vector<Drawing> sheet_pages(const SheetSet& set, const PageWords& words,
   return pages_of(contents);
 }
 
-std::vector<Measure> measures_of_floor(const SheetSet& atlas, std::size_t index,
+std::vector<Measure> measures_of_sheet(const SheetSet& set, std::size_t index,
                                        std::span<const Measure> measures) {
-  const auto begin_of = [&atlas](std::size_t i) {
-    const Sheet& sheet = atlas.sheets[i];
-    return *sheet.floor - FLOOR_METRES / sheet.unit_metres;
-  };
+  if (set.is_atlas) return floor_measures(set, index, measures);
   std::vector<Measure> own(measures.begin(), measures.end());
-  for (Measure& measure : own) {
-    if (measure.points.empty()) continue;
-    double height = 0.0;
-    for (const SurfacePoint& point : measure.points)
-      height += glm::dot(point.place, glm::normalize(atlas.sheets[index].up)) /
-                static_cast<double>(measure.points.size());
-    const bool is_below = index > 0 && height < begin_of(index);
-    const bool is_above = index + 1 < atlas.sheets.size() && height >= begin_of(index + 1);
-    if (is_below || is_above) measure = {};
-  }
+  for (Measure& measure : own)
+    if (view_of(set, measure) != index) measure = {};
   return own;
 }
 

@@ -28,9 +28,9 @@ namespace splatray {
 [[nodiscard]] std::vector<Drawing> sheet_pages(const SheetSet& set, const PageWords& words,
                                                std::span<const Measure> measures);
 
-/// The measures on an atlas' floor, by their points' mean height: not below its floor, and below the next one; of the lowest all below,
-/// too.
-[[nodiscard]] std::vector<Measure> measures_of_floor(const SheetSet& atlas, std::size_t index,
+/// The measures that one of several sheets shows, empty ones in place of the others. An atlas' floor has those whose points' mean height is
+/// not below it and below the next floor, the lowest all below, too; a view those whose lines are the longest on it, of several the first.
+[[nodiscard]] std::vector<Measure> measures_of_sheet(const SheetSet& set, std::size_t index,
                                                      std::span<const Measure> measures);
 /// "Floor at height 3.10 m", or from level= on "Floor at +3.10".
 [[nodiscard]] std::string floor_text(const Sheet& sheet);
