@@ -300,7 +300,7 @@ TEST(SurfacePoint, IsRefusedFarFromThePlace) {
   const auto measured = [](const GivenMeasure& given) { return take_measure(ball(), {}, given, nullptr); };
   const GivenPlace on{{0.0, 0.0, 1.0}, {}}, near{{0.0, 0.0, 1.0 + 3.0 * spacing}, {}};
   const GivenPlace off{{0.0, 0.0, 1.0 + 5.0 * spacing}, {}}, far{{2000.0, 0.0, 0.0}, {}};
-  for (int i = 0; i < MEASURE_KINDS; ++i) {
+  for (int i = 0; i < MARKED_KINDS; ++i) {
     const auto kind = static_cast<MeasureKind>(i);
     for (const GivenPlace& last : {on, near, off, far}) {
       GivenMeasure given{kind, std::vector(points_needed(kind), on), is_fitted(kind) ? 0.5 : 0.0};
