@@ -175,6 +175,37 @@ TEST(Viewpoint, OfADepthCameraIsItsOwnCroppedToThePicture) {
   EXPECT_NEAR(viewpoint_camera(scene, Viewpoint::sensor, 0.75, {}).fov_y_deg, 45.0, 1e-9) << "no less high";
 }
 
+/// A wall across z, as a depth camera at the origin saw it in its frame, y down: 0.8 by 0.6 of the distance, twice as many points to
+/// the right; or what a disc holds of it.
+Scene seen_wall(bool disc) {
+  OrientedPoints points;
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x) {
+      const double right = (x + 0.5) / 120.0, down = (y + 0.5) / 90.0;
+      if (disc && std::hypot(right - 0.5, down - 0.5) > 0.5) continue;
+      const glm::dvec3 place(2.0 * (0.8 * right - 0.4), 2.0 * (0.6 * down - 0.3), 2.0);
+      points.emplace_back(place, glm::dvec3(0, 0, -1));
+      if (right > 0.5) points.emplace_back(place, glm::dvec3(0, 0, -1));
+    }
+  Scene scene = scan_scene(points);
+  scene.up = {0.0, -1.0, 0.0};
+  return scene;
+}
+
+TEST(Viewpoint, OfASensorIsFilledWithWhatFillsItsFrame) {
+  const Camera even = viewpoint_camera(seen_wall(false), Viewpoint::sensor, 4.0 / 3.0, {});
+  const glm::dvec3 ahead = glm::normalize(even.target - even.eye);
+  EXPECT_NEAR(ahead.x, 0.0, 0.015) << "not to where more points are";
+  EXPECT_NEAR(std::tan(0.5 * even.fov_y_deg * DEG), 0.3, 0.006);
+  const Camera wide = viewpoint_camera(seen_wall(false), Viewpoint::sensor, 16.0 / 9.0, {});
+  EXPECT_NEAR(std::tan(0.5 * wide.fov_y_deg * DEG) * 16.0 / 9.0, 0.4, 0.006) << "cropped";
+  const Camera widest = viewpoint_camera(seen_wall(false), Viewpoint::sensor, 4.0, {});
+  EXPECT_NEAR(std::tan(0.5 * widest.fov_y_deg * DEG), 0.3 / 1.4, 0.006) << "by so much at most";
+  EXPECT_EQ(viewpoint_camera(seen_wall(false), Viewpoint::sensor, 4.0, 50.0).fov_y_deg, 50.0);
+  const Camera whole = viewpoint_camera(seen_wall(true), Viewpoint::sensor, 16.0 / 9.0, {});
+  EXPECT_GE(std::tan(0.5 * whole.fov_y_deg * DEG), 0.28) << "a thing is seen whole";
+}
+
 TEST(FramingCamera, OfAScanIgnoresStrays) {
   OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
   const Camera clean = framing_camera(scan_scene(points), 1.5);
