@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "app/library/cut/line_bridge.h"
@@ -220,6 +221,47 @@ TEST(Dashes, AreAsLongAsTheyAreOnPaper) {
     for (std::size_t i = 1; i < dash.points.size(); ++i)
       length += glm::distance(dash.points[i - 1], dash.points[i]);
   EXPECT_NEAR(length, 14.0, 1e-9);
+}
+
+/// Points a unit apart along y = height(x).
+std::vector<glm::dvec2> row_of(int length, const std::function<double(int)>& height) {
+  std::vector<glm::dvec2> row;
+  for (int x = 0; x < length; ++x) row.emplace_back(x, height(x));
+  return row;
+}
+
+constexpr double ROW_TOLERANCE = 2.0;
+
+/// Rims of discs jut out by up to two tolerances, now here, now there.
+TEST(FittedPolyline, OfRimsThatSwingIsOneLine) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> off(-2.0 * ROW_TOLERANCE, 2.0 * ROW_TOLERANCE);
+  std::vector<double> rims;
+  for (int i = 0; i < 100; ++i) rims.push_back(off(random));
+  const auto row = row_of(500, [&](int x) { return rims[static_cast<std::size_t>(x / 5)]; });
+  const std::vector<glm::dvec2> line = fitted_polyline(row, false, ROW_TOLERANCE);
+  ASSERT_EQ(line.size(), 2U);
+  EXPECT_NEAR(line.front().y, 0.0, ROW_TOLERANCE);
+  EXPECT_NEAR(line.back().y, 0.0, ROW_TOLERANCE);
+  const auto single = row_of(300, [](int x) { return x > 100 && x < 108 ? 2.2 * ROW_TOLERANCE : 0.0; });
+  EXPECT_EQ(fitted_polyline(single, false, ROW_TOLERANCE).size(), 2U) << "a rim alone";
+}
+
+TEST(FittedPolyline, KeepsCurvesStepsAndNotches) {
+  constexpr double RADIUS = 300.0;
+  std::vector<glm::dvec2> arc;
+  for (int i = 0; i < 900; ++i)
+    arc.emplace_back(RADIUS * std::cos(i / RADIUS), RADIUS * std::sin(i / RADIUS));
+  for (const glm::dvec2& corner : fitted_polyline(arc, false, ROW_TOLERANCE))
+    EXPECT_NEAR(glm::length(corner), RADIUS, 1.5 * ROW_TOLERANCE);
+  const auto most_off = [](const std::vector<glm::dvec2>& line, double height) {
+    return std::any_of(line.begin(), line.end(),
+                       [&](const glm::dvec2& p) { return std::abs(p.y - height) < 0.5; });
+  };
+  const auto step = row_of(400, [](int x) { return x < 200 ? 0.0 : 3.0 * ROW_TOLERANCE; });
+  EXPECT_GE(fitted_polyline(step, false, ROW_TOLERANCE).size(), 4U);
+  const auto notch = row_of(400, [](int x) { return x >= 150 && x < 200 ? 2.4 * ROW_TOLERANCE : 0.0; });
+  EXPECT_TRUE(most_off(fitted_polyline(notch, false, ROW_TOLERANCE), 2.4 * ROW_TOLERANCE));
 }
 
 }  // namespace
