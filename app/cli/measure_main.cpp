@@ -63,7 +63,7 @@ void add_measures(OptionList& list, std::vector<GivenMeasure>& measures) {
     add_named(std::string("--") + measure_name(kind), kind, help, value);
   };
   add(MeasureKind::point, std::string("coordinates of a place") + PLACES, "PLACE");
-  add(MeasureKind::distance, "distance along two places and more", "PLACE;PLACE...");
+  add(MeasureKind::distance, "distance along two places and more", "PLACE;PLACE");
   add(MeasureKind::horizontal, "distance of two places across the up direction", "PLACE;PLACE");
   add(MeasureKind::vertical, "height of the second place above the first", "PLACE;PLACE");
   list.set_group("");

@@ -234,6 +234,7 @@ std::optional<UpFound> up_of_survey(const PointSample& sample) {
   const auto [low, high] = range_along(sample.position, z, FOOT_OUTSIDE);
   const glm::dvec3 middle = glm::abs(sample.position[sample.size() / 2]);
   const double away = std::max(middle.x, middle.y), widest = std::max({size.x, size.y, size.z});
+  if (!(widest > 0.0)) return {};
   if (away > std::max(SURVEY_LEAST, SURVEY_SIZES * widest) && middle.z < SURVEY_HEIGHT * away)
     return UpFound{z, UpEvidence::survey, away / widest};
   const double width = std::min(size.x, size.y), flat = size.z / width;
