@@ -200,6 +200,7 @@ TEST(GridSurface, OtherGridsHaveNoCamera) {
 
 /// A terrestrial scanner's grid of angles; in space its noise would leave a median of 1 mm and 0.4 degrees.
 TEST(GridSurface, TripodsAreSmoothedAlongTheirLinesOfSight) {
+  SPLATRAY_NIGHTLY();
   const Tripod tripod{.sensors = {{-0.3, 0.2, 1.6}}, .step_deg = 0.5};
   const SimulatedScan scan = scan_from_tripods(TriangleTree(room_mesh()), tripod, {});
   const BuiltScan built = build_scan(scan.points);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/scene/splat.h"
+#include "tests/all_tests.h"
 #include "tests/scan_sim/built_scan.h"
 
 namespace splatray::testing {
@@ -112,6 +113,7 @@ TEST(RoomSides, HalfARoomIsSeenFromWithin) {
 
 /// A second room lies beyond each outer wall of the first, so that hardly a plane bounds all.
 TEST(RoomSides, RoomsBehindDoorsAreRooms) {
+  SPLATRAY_NIGHTLY();
   const auto door = [](const glm::dvec3& p) {
     return p.z < 2.0 && (std::abs(p.x - 1.0) < 0.5 || std::abs(p.y - 1.0) < 0.5);
   };

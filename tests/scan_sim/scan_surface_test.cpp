@@ -10,6 +10,7 @@
 
 #include "engine/scene/splat.h"
 #include "preprocess/scan/sides.h"
+#include "tests/all_tests.h"
 #include "tests/scan_sim/built_scan.h"
 #include "tests/scan_sim/scanner.h"
 #include "tests/scan_sim/sim_meshes.h"
@@ -54,6 +55,7 @@ SimulatedScan without_stations(SimulatedScan scan) {
 }
 
 TEST(ScanSurface, StraysAndMixedPixelsAreNotDrawn) {
+  SPLATRAY_NIGHTLY();
   const SimulatedScan scan = room_scan(0.5);
   const BuiltScan built = build_scan(scan.points);
   const Shares shares = shares_of(scan, built.scene);
