@@ -112,8 +112,9 @@ class Table:
                 process.kill()
                 process.wait()
                 kills += 1
-        differ = sum(digest != digests_of(killed).get(name) for name, digest in digests_of(whole).items())
-        self.lines.append(f"| killed {kills} times and resumed | {differ} of {len(digests_of(whole))} files differ |")
+        expected, found = digests_of(whole), digests_of(killed)
+        differ = sum(digest != found.get(name) for name, digest in expected.items())
+        self.lines.append(f"| killed {kills} times and resumed | {differ} of {len(expected)} files differ |")
 
     def merged(self, options):
         tiles = [self.render("above", f"tile{i}.exr", *options, "--tile", f"{i}/2")[1] for i in (1, 2)]
