@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "data/scanner.h"
+
 namespace splatray {
 namespace {
 
@@ -128,40 +130,62 @@ glm::dvec3 coloured(glm::dvec3 p, bool glazed) {
   return color * (0.85 + 0.2 * of.shade) * (0.88 + 0.24 * grain);
 }
 
-/// The cloud as a scanner sees it: coloured, and off the surface by its noise.
-OrientedPoints scanned(OrientedPoints cloud, bool (*glazed)(glm::dvec3)) {
-  constexpr double NOISE = 0.0004;
-  cloud = painted(std::move(cloud), [=](glm::dvec3 p) { return coloured(p, glazed(p)); });
-  for (std::size_t i = 0; i < cloud.position.size(); ++i) {
-    const glm::ivec3 place(cloud.position[i] * 1e5);
-    cloud.position[i] += NOISE * (hash(place, 6) + hash(place, 7) - 1.0) * cloud.normal[i];
-  }
-  return cloud;
+Profile profile() {
+  return spline({{0.12, 0.0},    {0.13, 0.015}, {0.115, 0.04}, {0.085, 0.065}, {0.095, 0.1},   {0.15, 0.2},
+                 {0.215, 0.32},  {0.265, 0.45}, {0.282, 0.56}, {0.262, 0.66},  {0.2, 0.735},   {0.135, 0.775},
+                 {0.105, 0.815}, {0.098, 0.86}, {0.104, 0.92}, {0.125, 0.96},  {0.148, 0.978}, {0.15, 0.995},
+                 {0.135, 1.0},   {0.112, 0.98}, {0.09, 0.92},  {0.085, 0.82}});
 }
 
-SurfacePatch handle(double side) {
+OrientedPoints handle(const Sampling& sampling, double side) {
   constexpr double TUBE = 0.019;
   const Curve loop = [=](double parameter) {
     const double angle = 2.0 * pi * parameter;
     return glm::dvec3(side * (0.15 + 0.095 * std::cos(angle)), 0.83 + 0.1 * std::sin(angle), 0.0);
   };
-  return {"amphora", tube_area(loop, TUBE), [=](const Sampling& sampling) {
-            return scanned(tube(sampling, loop, TUBE), [](glm::dvec3) { return true; });
-          }};
+  return painted(tube(sampling, loop, TUBE), [](glm::dvec3 p) { return coloured(p, true); });
+}
+
+/// Of the amphora's points: those of one handle, by its share of the area.
+constexpr double HANDLE_SHARE = 0.045;
+
+/// The whole surface, painted.
+OrientedPoints surface(const Sampling& sampling) {
+  const auto in_handle = static_cast<std::uint64_t>(HANDLE_SHARE * static_cast<double>(sampling.count));
+  OrientedPoints all =
+      painted(lathe({sampling.count - 2 * in_handle, sampling.even, sampling.seed}, profile()),
+              [](glm::dvec3 p) { return coloured(p, is_glazed(p)); });
+  for (const double side : {1.0, -1.0}) append(all, handle({in_handle, sampling.even, sampling.seed}, side));
+  return all;
+}
+
+/// About `count` points that scanners on tripods around it measure.
+OrientedPoints scanned(const Sampling& sampling, double area) {
+  constexpr double DISTANCE = 2.2;
+  constexpr double HEIGHTS[] = {1.5, 0.7, 1.5, 0.7, 1.5};
+  constexpr double SEEN = 1.13;  // times the area, by all of them together, as they face it
+  constexpr double SAMPLES = 6.0;
+  const double step_rad =
+      std::sqrt(SEEN * area / static_cast<double>(std::max<std::uint64_t>(1, sampling.count))) / DISTANCE;
+  const OrientedPoints all =
+      surface({static_cast<std::uint64_t>(SAMPLES * static_cast<double>(sampling.count)), sampling.even,
+               sampling.seed});
+  OrientedPoints measured;
+  for (std::size_t i = 0; i < std::size(HEIGHTS); ++i) {
+    const double angle = 2.0 * pi * static_cast<double>(i) / static_cast<double>(std::size(HEIGHTS)) + 0.4;
+    append(
+        measured,
+        scan(all, {{DISTANCE * std::cos(angle), HEIGHTS[i], DISTANCE * std::sin(angle)}, step_rad, 0.0004}));
+  }
+  measured.is_scan = true;
+  return measured;
 }
 
 }  // namespace
 
 Model amphora() {
-  const Profile profile =
-      spline({{0.12, 0.0},    {0.13, 0.015}, {0.115, 0.04}, {0.085, 0.065}, {0.095, 0.1},   {0.15, 0.2},
-              {0.215, 0.32},  {0.265, 0.45}, {0.282, 0.56}, {0.262, 0.66},  {0.2, 0.735},   {0.135, 0.775},
-              {0.105, 0.815}, {0.098, 0.86}, {0.104, 0.92}, {0.125, 0.96},  {0.148, 0.978}, {0.15, 0.995},
-              {0.135, 1.0},   {0.112, 0.98}, {0.09, 0.92},  {0.085, 0.82}});
-  const SurfacePatch body{"amphora", lathe_area(profile), [=](const Sampling& sampling) {
-                            return scanned(lathe(sampling, profile), is_glazed);
-                          }};
-  return {body, handle(1.0), handle(-1.0)};
+  const double area = lathe_area(profile()) / (1.0 - 2.0 * HANDLE_SHARE);
+  return {{"amphora", area, [=](const Sampling& sampling) { return scanned(sampling, area); }}};
 }
 
 }  // namespace splatray

@@ -1,4 +1,4 @@
-/// The built-in scene, a still life before a ring of light: a painted amphora as a scan has it, a vase of rough glass, a
+/// The built-in scene, a still life before a ring of light: a painted amphora as five scans have it, a vase of rough glass, a
 /// knot of copper, balls of gold and steel, on a curved backdrop. Materials, lights and camera are in
 /// data/scenes/demo.gltf.
 #include <cmath>

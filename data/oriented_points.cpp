@@ -63,6 +63,7 @@ void append(OrientedPoints& cloud, const OrientedPoints& more) {
   cloud.position.insert(cloud.position.end(), more.position.begin(), more.position.end());
   cloud.normal.insert(cloud.normal.end(), more.normal.begin(), more.normal.end());
   cloud.color.insert(cloud.color.end(), more.color.begin(), more.color.end());
+  cloud.is_scan = cloud.is_scan || more.is_scan;
 }
 
 void write_ply(const OrientedPoints& cloud, const std::filesystem::path& path) {
@@ -70,7 +71,7 @@ void write_ply(const OrientedPoints& cloud, const std::filesystem::path& path) {
   std::vector<char> bytes;
   for (std::size_t i = 0; i < cloud.position.size(); ++i) {
     append_floats(bytes, cloud.position[i]);
-    append_floats(bytes, cloud.normal[i]);
+    if (!cloud.is_scan) append_floats(bytes, cloud.normal[i]);
     for (int channel = 0; has_color && channel < 3; ++channel) {
       bytes.push_back(static_cast<char>(srgb_byte(cloud.color[i][channel])));
     }
@@ -78,7 +79,7 @@ void write_ply(const OrientedPoints& cloud, const std::filesystem::path& path) {
   std::ofstream file(path, std::ios::binary);
   file << "ply\nformat binary_little_endian 1.0\ncomment made by splatray-generate\nelement vertex "
        << cloud.position.size() << "\nproperty float x\nproperty float y\nproperty float z\n"
-       << "property float nx\nproperty float ny\nproperty float nz\n"
+       << (cloud.is_scan ? "" : "property float nx\nproperty float ny\nproperty float nz\n")
        << (has_color ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "")
        << "end_header\n";
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

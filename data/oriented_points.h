@@ -12,6 +12,7 @@ struct OrientedPoints {
   std::vector<glm::dvec3> position;
   std::vector<glm::dvec3> normal;  ///< unit, beside position
   std::vector<glm::dvec3> color;   ///< linear rgb, 0..1, beside position; empty = none
+  bool is_scan = false;            ///< as a scanner has them: their file holds no normals
 };
 
 /// A colour (linear rgb) for a point, by its position.
@@ -31,10 +32,10 @@ using Paint = std::function<glm::dvec3(glm::dvec3 position)>;
 [[nodiscard]] OrientedPoints kept(const OrientedPoints& cloud,
                                   const std::function<bool(glm::dvec3 position)>& keep);
 
-/// Adds `more` behind the points of `cloud`; both have colours or neither has.
+/// Adds `more` behind the points of `cloud`; both have colours or neither has. One that is a scan makes all a scan.
 void append(OrientedPoints& cloud, const OrientedPoints& more);
 
-/// Writes a binary little-endian PLY: float x y z nx ny nz and, with colours, uchar red green blue (sRGB).
+/// Writes a binary little-endian PLY: float x y z, nx ny nz but for scans and, with colours, uchar red green blue (sRGB).
 /// Throws Error (failed) when the file cannot be written.
 void write_ply(const OrientedPoints& cloud, const std::filesystem::path& path);
 
