@@ -146,7 +146,7 @@ OrientedPoints handle(const Sampling& sampling, double side) {
   return painted(tube(sampling, loop, TUBE), [](glm::dvec3 p) { return coloured(p, true); });
 }
 
-/// Of the amphora's points: those of one handle, by its share of the area.
+/// One handle's share of the amphora's points, by area.
 constexpr double HANDLE_SHARE = 0.045;
 
 /// The whole surface, painted.
