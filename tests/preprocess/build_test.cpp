@@ -317,6 +317,32 @@ TEST(Build, ObjectWithoutNormalsIsTwoSided) {
   EXPECT_EQ(build(object).materials[0].flags & MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED);
 }
 
+TEST(Build, PointsAloneAreAScanWhetherTheyHaveNormalsOrNot) {
+  InputObject points = test::even_sphere(1000);
+  points.oriented = false;
+  points.surface_area = 0.0;
+  const auto are_scan = [&](const InputObject& object, const auto& add) {
+    Input input = test::input_of(object);
+    add(input);
+    BuildStats stats;
+    return !build_scene(std::move(input), {}, 0, stats).stations.empty();
+  };
+  const auto nothing = [](Input&) {};
+  EXPECT_TRUE(are_scan(points, nothing));
+  EXPECT_FALSE(are_scan(points, [](Input& input) { input.camera.emplace(); })) << "a scene";
+  EXPECT_FALSE(are_scan(points, [](Input& input) { input.lights.emplace_back(); })) << "a scene";
+  EXPECT_FALSE(are_scan(points, [](Input& input) {
+    input.objects.push_back(test::input_of(test::even_sphere(500)).objects.front());
+  })) << "a mesh beside them";
+  InputObject discs = points, made = points;
+  discs.points.radius.assign(discs.points.size(), 0.1F);
+  EXPECT_FALSE(are_scan(discs, nothing));
+  made.measured = false;
+  EXPECT_FALSE(are_scan(made, nothing));
+  points.points.normal.clear();
+  EXPECT_TRUE(are_scan(points, nothing));
+}
+
 TEST(Build, ProgressCanStopItInEveryStage) {
   InputObject object = test::even_sphere(1000);
   object.points.normal.clear();
