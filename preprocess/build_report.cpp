@@ -1,5 +1,6 @@
 #include "preprocess/build_report.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -53,6 +54,9 @@ void report_scans(const BuildStats& stats, std::ostringstream& text) {
     if (stats.sides_unsure > 0) text << " (" << stats.sides_unsure << " points unsure)";
     text << '\n';
   }
+  if (stats.station_explained > 0.0)
+    text << "  the scanner's place was found: it explains how dense "
+         << std::round(100.0 * stats.station_explained) << " % of the surface is\n";
 }
 
 }  // namespace
@@ -70,6 +74,7 @@ std::string build_stats_json(const BuildStats& stats) {
                                        {"noise", stats.noise},
                                        {"moved_median_world", stats.moved_median_world},
                                        {"sides_by", sides_json(stats)},
+                                       {"station_explained", stats.station_explained},
                                        {"sides_unsure", stats.sides_unsure},
                                        {"normals_given", stats.normals_given},
                                        {"normals_estimated", stats.normals_estimated},

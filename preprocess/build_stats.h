@@ -22,7 +22,9 @@ struct BuildStats {
   double noise = 0.0;
   double moved_median_world = 0.0;          ///< how far smoothing moved points
   std::array<std::uint64_t, 5> sides_by{};  ///< scans without normals by what decided their sides (SideRung)
-  std::uint64_t sides_unsure = 0;           ///< points whose side is a guess
+  /// Share of a room's surface whose density the scanner's place that was found explains; 0 = none was found.
+  double station_explained = 0.0;
+  std::uint64_t sides_unsure = 0;  ///< points whose side is a guess
   std::uint64_t normals_given = 0;
   std::uint64_t normals_estimated = 0;  ///< of points without a usable normal
   std::uint64_t radii_given = 0;

@@ -14,6 +14,7 @@
 #include "preprocess/scan/sides.h"
 #include "preprocess/scan/smooth/layers.h"
 #include "preprocess/scan/smooth/smooth.h"
+#include "preprocess/scan/station.h"
 #include "preprocess/scan/strays.h"
 #include "preprocess/scan/survey.h"
 #include "preprocess/surface/sharp.h"
@@ -231,7 +232,9 @@ std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildP
   }
   Survey survey = look_at(cloud, up, params, stage);
   if (!params.keep_strays) drop_strays(cloud, grids, survey, stats);
-  lay_line_surfaces(cloud, survey, params.clip && cloud.radius.empty(), stage);
+  std::vector<LinePlace> lines = find_lines(cloud, survey, stage);
+  stats.station_explained = std::max(stats.station_explained, find_station(cloud, survey, lines, up));
+  lay_line_surfaces(cloud, survey, params.clip && cloud.radius.empty(), std::move(lines));
   std::vector<SharpSide> sharp = find_sharp_sides(cloud, survey, params, stage);
   sort_kinds(cloud, survey, sharp, stats);
   const auto estimated = numbers_where(

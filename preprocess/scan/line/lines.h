@@ -61,8 +61,8 @@ struct Sweep {
 void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& points,
                  const Sweep& sweep, bool bound, std::vector<LinePlace>& places);
 
-/// All of this: finds lines, the scanner's place where its rings alone show it (which the cloud then has as its station), and lays
-/// surfaces through what was found; where `splats`, these are ellipses (Cloud::line) and bounds of discs.
-void lay_line_surfaces(Cloud& cloud, const Survey& survey, bool splats, const Stage& stage);
+/// Lays surfaces through lines as find_lines has them and, of stations whose places are known, through rings; where `splats`, these are
+/// ellipses (Cloud::line) and bounds of discs.
+void lay_line_surfaces(Cloud& cloud, const Survey& survey, bool splats, std::vector<LinePlace> lines);
 
 }  // namespace splatray

@@ -1,0 +1,101 @@
+// Where a scanner stood in a room, by how dense its points are.
+#include "preprocess/scan/station.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include "preprocess/build_stats.h"
+#include "preprocess/scan/sides.h"
+#include "preprocess/surface/cloud.h"
+#include "tests/scan_sim/built_scan.h"
+
+namespace splatray::testing {
+namespace {
+
+const glm::dvec3 ROOM(4.0, 5.0, 3.0);
+
+/// What a scanner that turns about z meets from a place in an empty closed room, with noise of 2 mm along its beams.
+void scan_room(const glm::dvec3& sensor, Points& points) {
+  constexpr int ROWS = 180, COLUMNS = 360;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 0.002);
+  for (int row = 0; row < ROWS; ++row)
+    for (int column = 0; column < COLUMNS; ++column) {
+      const double polar = std::numbers::pi * (row + 0.5) / ROWS,
+                   turn = 2.0 * std::numbers::pi * column / COLUMNS;
+      const glm::dvec3 dir(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
+                           std::cos(polar));
+      double away = INFINITY;
+      for (int axis = 0; axis < 3; ++axis)
+        away = std::min(away, ((dir[axis] > 0.0 ? ROOM[axis] : 0.0) - sensor[axis]) / dir[axis]);
+      points.position.push_back(sensor + (away + noise(random)) * dir);
+    }
+}
+
+/// As many points, as dense everywhere.
+Points even_room() {
+  Points points;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const glm::dvec3 area(ROOM.y * ROOM.z, ROOM.z * ROOM.x, ROOM.x * ROOM.y);
+  for (int i = 0; i < 60000; ++i) {
+    const double chosen = unit(random) * (area.x + area.y + area.z);
+    const int axis = chosen < area.x ? 0 : chosen < area.x + area.y ? 1 : 2;
+    glm::dvec3 place = ROOM * glm::dvec3(unit(random), unit(random), unit(random));
+    place[axis] = unit(random) < 0.5 ? 0.0 : ROOM[axis];
+    points.position.push_back(place);
+  }
+  return points;
+}
+
+/// How far from a place the scanner was found; nothing where none was.
+std::optional<double> found_off(Points points, const glm::dvec3& sensor) {
+  BuildStats stats;
+  Cloud cloud = make_cloud(std::move(points), false, true, stats);
+  const Survey survey = survey_points(cloud, {0.0, 0.0, 1.0}, {"normals", {}});
+  const std::optional<StationFound> found = find_scanner_place(cloud, survey);
+  if (!found) return {};
+  return glm::distance(cloud.center_world + cloud.half_extent_world * found->sensor, sensor);
+}
+
+TEST(FoundStation, IsTheScannersPlaceInWhateverUnitAndPose) {
+  const glm::dvec3 sensor(1.2, 2.9, 1.4);
+  Points scan;
+  scan_room(sensor, scan);
+  EXPECT_LT(found_off(scan, sensor).value_or(INFINITY), 0.05);
+  Points turned = scan;  // into feet, y up
+  for (glm::dvec3& place : turned.position) place = glm::dvec3(place.y, place.z, place.x) / 0.3048;
+  EXPECT_LT(found_off(turned, glm::dvec3(sensor.y, sensor.z, sensor.x) / 0.3048).value_or(INFINITY),
+            0.05 / 0.3048);
+  Points thinned;
+  std::mt19937_64 random(7);
+  for (const glm::dvec3& place : scan.position)
+    if (random() % 4 == 0) thinned.position.push_back(place);
+  EXPECT_LT(found_off(thinned, sensor).value_or(INFINITY), 0.1);
+}
+
+TEST(FoundStation, IsNoneOfEvenPointsAndOfSeveralPlaces) {
+  EXPECT_FALSE(found_off(even_room(), {}));
+  Points both;
+  scan_room({0.6, 0.7, 1.4}, both);
+  scan_room({3.4, 4.3, 1.4}, both);
+  EXPECT_FALSE(found_off(both, {}));
+}
+
+TEST(FoundStation, DecidesTheSidesOfARoom) {
+  Points scan;
+  scan_room({1.2, 2.9, 1.4}, scan);
+  const BuiltScan built = build_scan(scan);
+  EXPECT_GT(built.stats.station_explained, 0.8);
+  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
+  const BuiltScan even = build_scan(even_room());
+  EXPECT_EQ(even.stats.station_explained, 0.0);
+  EXPECT_EQ(even.stats.sides_by[static_cast<std::size_t>(SideRung::votes)], 1U);
+}
+
+}  // namespace
+}  // namespace splatray::testing
