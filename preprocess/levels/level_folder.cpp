@@ -112,8 +112,10 @@ LevelFolder::LevelFolder(const Path& ept_json)
 
 Path LevelFolder::node(const std::string& name) const { return folder_ / "ept-data" / (name + ".bin"); }
 Path LevelFolder::top(std::size_t part) const { return build_ / ("top-" + std::to_string(part) + ".bin"); }
-Path LevelFolder::records(std::size_t part) const {
-  return build_ / ("part-" + std::to_string(part) + ".bin");
+Path LevelFolder::rest(std::size_t part) const { return build_ / ("rest-" + std::to_string(part) + ".bin"); }
+Path LevelFolder::means(const std::string& name) const { return folder_ / "ept-means" / (name + ".bin"); }
+Path LevelFolder::records(std::size_t part, const std::string& node) const {
+  return build_ / ("part-" + std::to_string(part) + (node.empty() ? "" : "-" + node) + ".bin");
 }
 
 std::optional<LevelJob> LevelFolder::job() const {
@@ -122,7 +124,8 @@ std::optional<LevelJob> LevelFolder::job() const {
 }
 
 void LevelFolder::keep(const LevelJob& job) const {
-  for (const Path& folder : {folder_ / "ept-data", folder_ / "ept-hierarchy", build_}) {
+  for (const Path& folder :
+       {folder_ / "ept-data", folder_ / "ept-means", folder_ / "ept-hierarchy", build_}) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
@@ -144,22 +147,26 @@ void LevelFolder::keep(const DividedSoFar& divided) const {
                   build_ / "divided.json");
 }
 
-std::optional<NodeCounts> LevelFolder::nodes_of(std::size_t part) const {
-  return read_kept(build_ / ("nodes-" + std::to_string(part) + ".json"),
-                   [](const Json& json) { return json.get<NodeCounts>(); });
+std::optional<BuiltNodes> LevelFolder::nodes_of(std::size_t part) const {
+  return read_kept(build_ / ("nodes-" + std::to_string(part) + ".json"), [](const Json& json) {
+    return BuiltNodes{json.at("points").get<NodeCounts>(), json.at("means").get<NodeCounts>()};
+  });
 }
 
-void LevelFolder::keep(std::size_t part, const NodeCounts& nodes) const {
-  write_text_file(Json(nodes).dump(), build_ / ("nodes-" + std::to_string(part) + ".json"));
+void LevelFolder::keep(std::size_t part, const BuiltNodes& nodes) const {
+  write_text_file(Json{{"points", nodes.points}, {"means", nodes.means}}.dump(),
+                  build_ / ("nodes-" + std::to_string(part) + ".json"));
 }
 
-void LevelFolder::finish(const LevelJob& job, const NodeCounts& nodes) const {
-  write_text_file(Json(nodes).dump() + '\n', folder_ / "ept-hierarchy" / "0-0-0-0.json");
+void LevelFolder::finish(const LevelJob& job, const BuiltNodes& nodes) const {
+  write_text_file(Json(nodes.points).dump() + '\n', folder_ / "ept-hierarchy" / "0-0-0-0.json");
+  write_text_file(Json(nodes.means).dump() + '\n', folder_ / "ept-means" / "counts.json");
   const LevelLattice& lattice = job.plan.lattice;
   Json head{{"bounds", corners_json(lattice.low, lattice.low + lattice.edge)},
             {"boundsConforming", corners_json(job.box_low, job.box_high)},
             {"dataType", "binary"},
             {"hierarchyType", "json"},
+            {"means", true},
             {"points", job.points},
             {"schema", tile_schema_json(job.schema)},
             {"span", EPT_SPAN},

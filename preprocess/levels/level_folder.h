@@ -34,6 +34,16 @@ struct DividedSoFar {
 /// Points of nodes, by the nodes' names ("1-0-1-1").
 using NodeCounts = std::map<std::string, std::uint64_t>;
 
+struct BuiltNodes {
+  NodeCounts points;
+  NodeCounts means;  ///< that stand for nodes which are not read; there are none of the root
+
+  void add(const BuiltNodes& more) {
+    points.insert(more.points.begin(), more.points.end());
+    means.insert(more.means.begin(), more.means.end());
+  }
+};
+
 [[nodiscard]] std::string node_name(std::uint32_t level, const glm::uvec3& cell);
 
 class LevelFolder {
@@ -45,8 +55,12 @@ class LevelFolder {
   /// A node's file, and where a part's top waits until it has been thinned for the nodes above it.
   [[nodiscard]] std::filesystem::path node(const std::string& name) const;
   [[nodiscard]] std::filesystem::path top(std::size_t part) const;
-  /// The records of a part that is not built.
-  [[nodiscard]] std::filesystem::path records(std::size_t part) const;
+  /// Further records of a part's top that cannot be divided.
+  [[nodiscard]] std::filesystem::path rest(std::size_t part) const;
+  /// What stands for a node.
+  [[nodiscard]] std::filesystem::path means(const std::string& name) const;
+  /// Records of a part, or of some node in it, that are not built.
+  [[nodiscard]] std::filesystem::path records(std::size_t part, const std::string& node = "") const;
 
   /// Nothing where there is none. All that read throw Error (input_unreadable) for what is damaged.
   [[nodiscard]] std::optional<LevelJob> job() const;
@@ -55,11 +69,11 @@ class LevelFolder {
   [[nodiscard]] DividedSoFar divided(std::size_t parts) const;
   void keep(const DividedSoFar& divided) const;
   /// The nodes of a part that is built.
-  [[nodiscard]] std::optional<NodeCounts> nodes_of(std::size_t part) const;
-  void keep(std::size_t part, const NodeCounts& nodes) const;
+  [[nodiscard]] std::optional<BuiltNodes> nodes_of(std::size_t part) const;
+  void keep(std::size_t part, const BuiltNodes& nodes) const;
 
   /// Writes the hierarchy and, last, `ept.json`, and removes what was only needed to make it.
-  void finish(const LevelJob& job, const NodeCounts& nodes) const;
+  void finish(const LevelJob& job, const BuiltNodes& nodes) const;
 
  private:
   std::filesystem::path ept_json_, folder_, build_;

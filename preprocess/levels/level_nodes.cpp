@@ -11,17 +11,6 @@ namespace splatray {
 namespace {
 
 constexpr std::size_t MOST_UNDIVIDED = 50'000;  ///< of a node that is not divided
-/// A node has at most one point in each of 2^SPAN_BITS cells along its edges.
-constexpr unsigned SPAN_BITS = 7;
-constexpr unsigned MOST_LEVEL = LevelLattice::BITS - SPAN_BITS;
-
-/// A number by chance of a place: near places have others (the finalizer of D. Stafford's Mix13, 2011).
-std::uint64_t chance_of(const glm::uvec3& place) {
-  std::uint64_t mixed = (std::uint64_t{place.x} << 32U) ^ (std::uint64_t{place.y} << 17U) ^ place.z;
-  mixed = (mixed ^ mixed >> 30U) * 0xBF58476D1CE4E5B9ULL;
-  mixed = (mixed ^ mixed >> 27U) * 0x94D049BB133111EBULL;
-  return mixed ^ mixed >> 31U;
-}
 
 struct Candidate {
   std::uint64_t cell, chance;
@@ -34,6 +23,7 @@ struct Candidate {
 
 /// Removes what is in `taken`, ascending, but keeps one.
 void remove_taken(RecordNumbers& records, RecordNumbers& taken) {
+  if (records.empty()) return;  // a node above points at one place, which those below it kept
   const auto is_taken = [&](std::uint32_t record) {
     return std::binary_search(taken.begin(), taken.end(), record);
   };
@@ -49,7 +39,10 @@ class Builder {
 
   /// Builds a node of these records and returns those that it has itself.
   RecordNumbers build(std::uint32_t level, const glm::uvec3& cell, RecordNumbers records) {
-    if (records.size() <= MOST_UNDIVIDED || level == MOST_LEVEL) return records;
+    if (records.size() <= MOST_UNDIVIDED || level == MOST_LEVEL) {
+      listener_.whole({level, cell, records.size()}, records);
+      return records;
+    }
     std::array<RecordNumbers, 8> octants = divide(level, std::move(records));
     std::vector<RecordNumbers> sets;
     std::vector<glm::uvec3> cells;
@@ -59,7 +52,8 @@ class Builder {
       sets.push_back(build(level + 1, cells.back(), std::move(octants[octant])));
     }
     RecordNumbers own = take_sample(places_, level, sets);
-    for (std::size_t i = 0; i < sets.size(); ++i) listener_({level + 1, cells[i], sets[i].size()}, sets[i]);
+    for (std::size_t i = 0; i < sets.size(); ++i)
+      listener_.built({level + 1, cells[i], sets[i].size()}, sets[i]);
     return own;
   }
 
@@ -78,13 +72,20 @@ class Builder {
 
 }  // namespace
 
+std::uint64_t chance_of(const glm::uvec3& place) {
+  std::uint64_t mixed = (std::uint64_t{place.x} << 32U) ^ (std::uint64_t{place.y} << 17U) ^ place.z;
+  mixed = (mixed ^ mixed >> 30U) * 0xBF58476D1CE4E5B9ULL;
+  mixed = (mixed ^ mixed >> 27U) * 0x94D049BB133111EBULL;
+  return mixed ^ mixed >> 31U;
+}
+
 RecordNumbers take_sample(std::span<const glm::uvec3> places, std::uint32_t level,
                           std::span<RecordNumbers> children) {
   std::vector<Candidate> candidates;
   for (const RecordNumbers& records : children)
     for (const std::uint32_t record : records) {
       const glm::uvec3 cell =
-          (places[record] >> (LevelLattice::BITS - level - SPAN_BITS)) & ((1U << SPAN_BITS) - 1);
+          (places[record] >> (LevelLattice::BITS - level - LEVEL_SPAN_BITS)) & ((1U << LEVEL_SPAN_BITS) - 1);
       candidates.push_back({morton_key(cell), chance_of(places[record]), record});
     }
   std::sort(candidates.begin(), candidates.end());
@@ -103,7 +104,7 @@ void build_level_nodes(std::span<const glm::uvec3> places, const LevelPart& top,
   std::iota(all.begin(), all.end(), 0U);
   Builder builder(places, listener);
   const RecordNumbers own = builder.build(top.level, top.cell, std::move(all));
-  listener({top.level, top.cell, own.size()}, own);
+  listener.built({top.level, top.cell, own.size()}, own);
 }
 
 }  // namespace splatray

@@ -40,13 +40,6 @@ void divide(std::span<const KeyedCount> cells, std::uint32_t level, unsigned dep
 
 }  // namespace
 
-glm::uvec3 LevelLattice::place(const glm::dvec3& position) const {
-  // The edge is a power of two, the corner a multiple of cells: nothing is rounded but down to the cell.
-  constexpr auto CELLS = static_cast<double>(1U << BITS);
-  const double cells_a_unit = CELLS / edge;
-  return glm::uvec3(glm::clamp(glm::floor(position * cells_a_unit) - low * cells_a_unit, 0.0, CELLS - 1.0));
-}
-
 void LevelPlan::index() {
   begins_.clear();
   for (const LevelPart& part : parts) begins_.push_back(morton_key(part.cell << (depth - part.level)));

@@ -6,25 +6,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "preprocess/base/levels.h"
+#include "preprocess/base/level_lattice.h"
 
 namespace splatray {
-
-/// Where points lie in the root's cube, in fractions of 2^BITS of its edge: what decides which node a point is of, the same in all steps.
-/// The edge is a power of two.
-struct LevelLattice {
-  static constexpr unsigned BITS = 30;
-
-  glm::dvec3 low{0.0};  ///< the cube's lowest corner, world units
-  double edge = 1.0;    ///< world units
-
-  /// Points beside the cube lie in its outermost cells.
-  [[nodiscard]] glm::uvec3 place(const glm::dvec3& position) const;
-  /// The cell of a place among those of a level <= BITS.
-  [[nodiscard]] static glm::uvec3 cell(const glm::uvec3& place, unsigned level) {
-    return place >> (BITS - level);
-  }
-};
 
 /// A node whose descendants are built together.
 struct LevelPart {

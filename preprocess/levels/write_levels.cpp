@@ -66,7 +66,7 @@ void build_parts(const LevelJob& job, const LevelSteps& steps, const LevelFolder
   for (std::size_t done = 0; done < parts.size(); done += at_once) {
     Stage{"building", progress}.report(static_cast<double>(done) / static_cast<double>(parts.size()));
     tbb::parallel_for(done, std::min(done + at_once, parts.size()),
-                      [&](std::size_t i) { build_part(job, parts[i], folder); });
+                      [&](std::size_t i) { build_part(job, parts[i], steps.most_part_points, folder); });
   }
 }
 
@@ -114,9 +114,9 @@ LevelsMade write_levels(const std::vector<std::filesystem::path>& inputs, const 
   if (steps.build) build_parts(job, steps, folder, progress);
   LevelsMade made{job.points, job.plan.parts.size(), 0, batches.notes()};
   if (steps.join) {
-    const NodeCounts nodes = join_parts(job, folder, progress);
+    const BuiltNodes nodes = join_parts(job, folder, progress);
     folder.finish(job, nodes);
-    made.nodes = nodes.size();
+    made.nodes = nodes.points.size();
   }
   return made;
 }

@@ -18,6 +18,7 @@
 #include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/las/read_las.h"
 #include "preprocess/read/tiles/read_json.h"
+#include "preprocess/read/tiles/stand_ins.h"
 #include "preprocess/read/tiles/tile_schema.h"
 
 namespace splatray {
@@ -34,6 +35,7 @@ struct Head {
   std::array<glm::dvec3, 2> box{};
   std::string crs;
   std::optional<TileSchema> binary;  ///< of tiles that are records alone, else they are LAZ
+  bool has_means = false;            ///< beside binary tiles, as splatray-preprocess writes them
 };
 
 std::array<glm::dvec3, 2> box_of(const Path& path, const Json& json, const char* name) {
@@ -74,6 +76,7 @@ Head read_head(const Path& path) {
     head.binary = read_tile_schema(head.json.value("schema", Json()), path);
   else if (type != "laszip")
     throw_unreadable(path, "found tiles of the type " + type.dump() + R"(, expected "laszip" or "binary")");
+  head.has_means = head.binary && head.json.value("means", Json()) == true;
   const Json system = head.json.value("srs", Json::object());
   const Json text = system.is_object() ? system.value("wkt", Json()) : Json();
   const unsigned horizontal = epsg_number(system, "horizontal");
@@ -156,51 +159,106 @@ struct Tile {
   std::vector<std::string> notes;
 };
 
-ScanFile read_binary_tile(const Path& path, const TileSchema& schema, const ReadOptions& options) {
+/// A file of a node's points, or of means in its place.
+struct TileFile {
+  Path path;
+  std::uint32_t node = 0;
+  std::uint64_t points = 0;
+  bool is_means = false;
+};
+
+std::vector<unsigned char> records_of(const Path& path, const TileSchema& schema) {
   ByteReader in(path);
-  const std::vector<unsigned char> records = in.read(in.remaining());
+  std::vector<unsigned char> records = in.read(in.remaining());
   if (records.size() % schema.record_bytes != 0)
     throw_unreadable(path, "found " + std::to_string(records.size()) + " bytes, expected whole records of " +
                                std::to_string(schema.record_bytes));
-  ScanFile file;
-  file.points = points_of_records(records, schema, options.scans, file.counts);
-  return file;
+  return records;
 }
 
-Tile read_tile(const Path& path, const Head& head, const LevelNode& node, const ReadOptions& options) {
-  const Path place = path.parent_path() / "ept-data" / (name_of(node) + (head.binary ? ".bin" : ".laz"));
+/// Removes those in whose place means are read.
+void remove_replaced(const StandIns& stand_ins, const TileFile& file, const TileSchema& schema,
+                     std::vector<unsigned char>& records) {
+  const std::size_t stride = schema.record_bytes;
+  auto kept = records.begin();
+  for (auto record = records.begin(); record != records.end(); record += std::ptrdiff_t(stride)) {
+    if (stand_ins.replace(file.node, schema.position(&*record))) continue;
+    kept = std::copy_n(record, stride, kept);
+  }
+  records.erase(kept, records.end());
+}
+
+/// `stand_ins`: of scans that have means, else none.
+ScanFile read_binary_tile(const TileFile& file, const TileSchema& schema, const StandIns* stand_ins,
+                          const ReadOptions& options) {
+  const TileSchema of_file = file.is_means ? tile_means_schema(schema) : schema;
+  std::vector<unsigned char> records = records_of(file.path, of_file);
+  const std::uint64_t stored = records.size() / of_file.record_bytes;
+  if (stand_ins != nullptr && !file.is_means) remove_replaced(*stand_ins, file, of_file, records);
+  ScanFile read;
+  read.points = points_of_records(records, of_file, options.scans, read.counts);
+  read.counts.stored = stored;
+  return read;
+}
+
+Tile read_tile(const TileFile& file, const Head& head, const StandIns* stand_ins,
+               const ReadOptions& options) {
   const Progress none;
   Tile tile;
   try {
-    tile.file = head.binary ? read_binary_tile(place, *head.binary, options)
-                            : read_las(place, options, {tile.notes, none});
+    tile.file = head.binary ? read_binary_tile(file, *head.binary, stand_ins, options)
+                            : read_las(file.path, options, {tile.notes, none});
   } catch (const Error& error) {
     if (options.scans.strict || error.code() != ExitCode::input_unreadable) throw;
     tile.notes.emplace_back(error.what());
-    tile.file.counts = {node.points, node.points};
+    tile.file.counts = {file.points, file.points};
     return tile;
   }
-  if (tile.file.counts.stored != node.points) {
+  if (tile.file.counts.stored != file.points) {
     const std::string found = "found " + std::to_string(tile.file.counts.stored) + " points, expected the " +
-                              std::to_string(node.points) + " that the hierarchy counts";
-    if (options.scans.strict) throw_unreadable(place, found);
-    tile.notes.push_back(place.string() + ": " + found);
+                              std::to_string(file.points) + " that the hierarchy counts";
+    if (options.scans.strict) throw_unreadable(file.path, found);
+    tile.notes.push_back(file.path.string() + ": " + found);
   }
   return tile;
 }
 
-/// The nodes that are chosen and have points.
-std::vector<LevelNode> chosen_nodes(const Path& path, const Levels& levels, const ChosenNodes& chosen) {
+/// The nodes that are chosen.
+std::vector<std::uint32_t> chosen_nodes(const Path& path, const Levels& levels, const ChosenNodes& chosen) {
   std::vector<std::uint32_t> which(levels.nodes.size());
   std::iota(which.begin(), which.end(), 0U);
   if (const auto found = chosen.find(path); found != chosen.end()) which = found->second;
   if (!which.empty() && which.back() >= levels.nodes.size())
     throw_unreadable(path, "found " + std::to_string(levels.nodes.size()) +
                                " nodes in its hierarchy, expected more: it has changed");
-  std::vector<LevelNode> nodes;
-  for (const std::uint32_t i : which)
-    if (levels.nodes[i].points > 0) nodes.push_back(levels.nodes[i]);
-  return nodes;
+  return which;
+}
+
+/// How many means stand for a node.
+std::uint64_t means_of(const Json& counts, const std::string& name, const Path& page) {
+  const Json count = counts.is_object() ? counts.value(name, Json()) : Json();
+  if (!count.is_number_unsigned())
+    throw_unreadable(page, "found for '" + name + "' " + count.dump() + ", expected a count of means");
+  return count.get<std::uint64_t>();
+}
+
+/// The files of nodes that have points, and of means.
+std::vector<TileFile> tile_files(const Path& path, const Head& head, const Levels& levels,
+                                 const std::vector<std::uint32_t>& nodes, const StandIns* stand_ins) {
+  const Path folder = path.parent_path();
+  const std::string extension = head.binary ? ".bin" : ".laz";
+  std::vector<TileFile> files;
+  for (const std::uint32_t i : nodes)
+    if (const LevelNode& node = levels.nodes[i]; node.points > 0)
+      files.push_back({folder / "ept-data" / (name_of(node) + extension), i, node.points});
+  if (stand_ins == nullptr || stand_ins->nodes().empty()) return files;
+  const Path page = folder / "ept-means" / "counts.json";
+  const Json counts = read_json(page);
+  for (const std::uint32_t i : stand_ins->nodes()) {
+    const std::string name = name_of(levels.nodes[i]);
+    files.push_back({folder / "ept-means" / (name + extension), i, means_of(counts, name, page), true});
+  }
+  return files;
 }
 
 void add(ScanFile& to, Tile&& tile, const ReadListener& listener) {
@@ -212,16 +270,22 @@ void add(ScanFile& to, Tile&& tile, const ReadListener& listener) {
 }
 
 /// Reads some nodes at a time, each in a thread; all in their order.
-void read_nodes(const Path& path, const Head& head, std::span<const LevelNode> nodes,
-                const ReadOptions& options, const ReadListener& listener, ScanFile& file) {
+void read_nodes(const Path& path, const Head& head, const Levels& levels, const ReadOptions& options,
+                const ReadListener& listener, ScanFile& file) {
+  const std::vector<std::uint32_t> chosen = chosen_nodes(path, levels, options.nodes);
+  std::optional<StandIns> stand_ins;
+  if (head.has_means) stand_ins.emplace(levels, chosen);
+  const StandIns* const means = stand_ins ? &*stand_ins : nullptr;
+  const std::vector<TileFile> files = tile_files(path, head, levels, chosen, means);
   const std::size_t at_once =
       2 * tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  for (std::size_t done = 0; done < nodes.size(); done += at_once) {
-    listener.report(static_cast<double>(done) / static_cast<double>(nodes.size()));
-    const std::span<const LevelNode> some = nodes.subspan(done, std::min(at_once, nodes.size() - done));
+  for (std::size_t done = 0; done < files.size(); done += at_once) {
+    listener.report(static_cast<double>(done) / static_cast<double>(files.size()));
+    const std::span<const TileFile> some =
+        std::span(files).subspan(done, std::min(at_once, files.size() - done));
     std::vector<Tile> tiles(some.size());
     tbb::parallel_for(std::size_t{0}, some.size(),
-                      [&](std::size_t i) { tiles[i] = read_tile(path, head, some[i], options); });
+                      [&](std::size_t i) { tiles[i] = read_tile(some[i], head, means, options); });
     for (Tile& tile : tiles) add(file, std::move(tile), listener);
     listener.show(file.points);
   }
@@ -273,8 +337,7 @@ ScanFile read_ept(const Path& path, const ReadOptions& options, const ReadListen
   const Json stations = head.json.value("stations", Json::array());
   if (head.binary && !stations.empty()) file.points.stations = read_stations(stations, path);
   file.counts.stored = options.heads_only ? levels.points() : 0;
-  if (!options.heads_only)
-    read_nodes(path, head, chosen_nodes(path, levels, options.nodes), options, listener, file);
+  if (!options.heads_only) read_nodes(path, head, levels, options, listener, file);
   check_stations(file.points);
   return file;
 }

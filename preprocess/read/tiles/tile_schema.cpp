@@ -20,15 +20,12 @@ using Kind = TileField::Kind;
 struct KnownColumn {
   std::string_view column, field;
 };
-constexpr std::array<KnownColumn, 6> KNOWN_COLUMNS{{{COLUMN_INTENSITY, "Intensity"},
-                                                    {COLUMN_CLASS, "Classification"},
+constexpr std::array<KnownColumn, 6> KNOWN_COLUMNS{{{COLUMN_INTENSITY, TILE_INTENSITY},
+                                                    {COLUMN_CLASS, TILE_CLASS},
                                                     {COLUMN_RETURN, "ReturnNumber"},
                                                     {COLUMN_RETURNS, "NumberOfReturns"},
                                                     {COLUMN_SOURCE, "PointSourceId"},
                                                     {COLUMN_TIME, "GpsTime"}}};
-
-constexpr std::array<const char*, 3> PLACE{"X", "Y", "Z"}, COLOUR{"Red", "Green", "Blue"},
-    NORMAL{"NormalX", "NormalY", "NormalZ"};
 
 constexpr const char* STATION = "Station";
 
@@ -108,32 +105,17 @@ std::vector<Column> empty_columns(const TileSchema& schema, const std::vector<st
   return columns;
 }
 
-/// The fields of these names, or nothing where one is missing.
-std::array<const TileField*, 3> fields_of(const TileSchema& schema, const std::array<const char*, 3>& names) {
-  std::array<const TileField*, 3> fields{};
-  for (std::size_t i = 0; i < 3; ++i) fields[i] = schema.find(names[i]);
-  return fields[0] != nullptr && fields[1] != nullptr && fields[2] != nullptr
-             ? fields
-             : std::array<const TileField*, 3>{};
-}
-
-glm::dvec3 values_of(const std::array<const TileField*, 3>& fields, const unsigned char* record) {
-  return {fields[0]->value(record), fields[1]->value(record), fields[2]->value(record)};
-}
-
 /// Whether a record is left out, which is counted then.
 class Unwanted {
  public:
   Unwanted(const TileSchema& schema, bool keep_all)
-      : class_(keep_all ? nullptr : schema.find("Classification")),
-        withheld_(keep_all ? nullptr : schema.find("Withheld")) {}
+      : class_(keep_all ? nullptr : schema.find(TILE_CLASS)),
+        withheld_(keep_all ? nullptr : schema.find(TILE_WITHHELD)) {}
 
   bool is(const unsigned char* record, ScanCounts& counts) const {
     if (withheld_ != nullptr && withheld_->value(record) != 0.0) return ++counts.withheld, true;
-    constexpr double LOW_NOISE = 7.0, HIGH_NOISE = 18.0;
-    const double kind = class_ == nullptr ? 0.0 : class_->value(record);
-    if (kind == LOW_NOISE || kind == HIGH_NOISE) return ++counts.noise, true;
-    return false;
+    if (class_ == nullptr || !is_noise_class(class_->value(record))) return false;
+    return ++counts.noise, true;
   }
 
  private:
@@ -177,7 +159,27 @@ const TileField* TileSchema::find(std::string_view name) const {
 }
 
 glm::dvec3 TileSchema::position(const unsigned char* record) const {
-  return values_of(fields_of(*this, PLACE), record);
+  return tile_values(tile_fields(*this, TILE_PLACE), record);
+}
+
+TileFields tile_fields(const TileSchema& schema, const std::array<const char*, 3>& names) {
+  TileFields fields{};
+  for (std::size_t i = 0; i < 3; ++i) fields[i] = schema.find(names[i]);
+  return std::find(fields.begin(), fields.end(), nullptr) == fields.end() ? fields : TileFields{};
+}
+
+glm::dvec3 tile_values(const TileFields& fields, const unsigned char* record) {
+  return {fields[0]->value(record), fields[1]->value(record), fields[2]->value(record)};
+}
+
+TileSchema tile_means_schema(TileSchema schema) {
+  schema.add({.name = TILE_COUNT, .bytes = 4});
+  return schema;
+}
+
+bool is_noise_class(double number) {
+  constexpr double LOW_NOISE = 7.0, HIGH_NOISE = 18.0;
+  return number == LOW_NOISE || number == HIGH_NOISE;
 }
 
 TileSchema read_tile_schema(const Json& schema, const std::filesystem::path& path) {
@@ -210,7 +212,7 @@ TileSchema read_tile_schema(const Json& schema, const std::filesystem::path& pat
                            ", expected a name, a type (signed, unsigned, float) and a size of 1 to 8 bytes");
     read.add(std::move(field));
   }
-  if (fields_of(read, PLACE)[0] == nullptr)
+  if (tile_fields(read, TILE_PLACE)[0] == nullptr)
     throw_unreadable(path, "found a schema without X, Y and Z, expected them for binary tiles");
   return read;
 }
@@ -230,15 +232,15 @@ TileSchema tile_schema_of(const Points& points, const glm::dvec3& step_world,
                           const glm::dvec3& origin_world) {
   TileSchema schema;
   for (int axis = 0; axis < 3; ++axis) {
-    TileField field{.name = PLACE[static_cast<std::size_t>(axis)], .kind = Kind::floating, .bytes = 8};
+    TileField field{.name = TILE_PLACE[static_cast<std::size_t>(axis)], .kind = Kind::floating, .bytes = 8};
     if (step_world[axis] > 0.0)
       field = {field.name, Kind::signed_integer, 4, step_world[axis], origin_world[axis]};
     schema.add(std::move(field));
   }
   if (!points.stored_color.empty() || !points.color.empty())
-    for (const char* name : COLOUR) schema.add({.name = name, .bytes = 2});
+    for (const char* name : TILE_COLOUR) schema.add({.name = name, .bytes = 2});
   if (!points.normal.empty())
-    for (const char* name : NORMAL) schema.add({.name = name, .kind = Kind::floating, .bytes = 4});
+    for (const char* name : TILE_NORMAL) schema.add({.name = name, .kind = Kind::floating, .bytes = 4});
   if (!points.stations.empty()) schema.add({.name = STATION, .bytes = 2});
   for (const Column& column : points.columns) schema.add(field_of(column));
   return schema;
@@ -268,11 +270,11 @@ void append_records(const Points& points, const TileSchema& schema, std::size_t 
   };
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    store(schema.find(PLACE[a]), [&](std::size_t i) { return points.position[i][axis]; });
+    store(schema.find(TILE_PLACE[a]), [&](std::size_t i) { return points.position[i][axis]; });
     if (!points.stored_color.empty() || !points.color.empty())
-      store(schema.find(COLOUR[a]), [&](std::size_t i) { return stored_colour(points, i)[axis]; });
+      store(schema.find(TILE_COLOUR[a]), [&](std::size_t i) { return stored_colour(points, i)[axis]; });
     if (!points.normal.empty())
-      store(schema.find(NORMAL[a]), [&](std::size_t i) { return double(points.normal[i][axis]); });
+      store(schema.find(TILE_NORMAL[a]), [&](std::size_t i) { return double(points.normal[i][axis]); });
   }
   store(schema.find(STATION), [&](std::size_t i) {
     return static_cast<double>(first_station + (points.station.empty() ? 0 : points.station[i]));
@@ -283,8 +285,8 @@ void append_records(const Points& points, const TileSchema& schema, std::size_t 
 
 Points points_of_records(std::span<const unsigned char> records, const TileSchema& schema,
                          const ScanOptions& options, ScanCounts& counts) {
-  const auto place = fields_of(schema, PLACE), colour = fields_of(schema, COLOUR),
-             normal = fields_of(schema, NORMAL);
+  const auto place = tile_fields(schema, TILE_PLACE), colour = tile_fields(schema, TILE_COLOUR),
+             normal = tile_fields(schema, TILE_NORMAL);
   const TileField* const station = schema.find(STATION);
   const Unwanted unwanted(schema, options.keep_withheld);
   Points points;
@@ -295,18 +297,18 @@ Points points_of_records(std::span<const unsigned char> records, const TileSchem
   for (std::size_t i = 0; i < count; ++i) {
     const unsigned char* record = records.data() + i * schema.record_bytes;
     if (unwanted.is(record, counts)) continue;
-    const glm::dvec3 position = values_of(place, record);
+    const glm::dvec3 position = tile_values(place, record);
     if (!std::isfinite(glm::dot(position, glm::dvec3(1.0)))) {
       ++counts.no_return;
       continue;
     }
     points.position.push_back(position);
     if (colour[0] != nullptr) {
-      const glm::dvec3 stored = values_of(colour, record);
+      const glm::dvec3 stored = tile_values(colour, record);
       points.stored_color.emplace_back(narrowed<std::uint16_t>(stored.x), narrowed<std::uint16_t>(stored.y),
                                        narrowed<std::uint16_t>(stored.z));
     }
-    if (normal[0] != nullptr) points.normal.emplace_back(glm::vec3(values_of(normal, record)));
+    if (normal[0] != nullptr) points.normal.emplace_back(glm::vec3(tile_values(normal, record)));
     if (station != nullptr) points.station.push_back(narrowed<std::uint16_t>(station->value(record)));
     for (std::size_t c = 0; c < fields.size(); ++c)
       std::visit(

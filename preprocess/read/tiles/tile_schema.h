@@ -1,5 +1,6 @@
 /// Records of points as binary tiles hold them (Entwine Point Tile 1.0, "schema" and the data type "binary").
 #pragma once
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -11,6 +12,15 @@
 #include "preprocess/points.h"
 
 namespace splatray {
+
+/// Fields by PDAL's names, of which means are made (levels/level_means.h).
+inline constexpr std::array<const char*, 3> TILE_PLACE{"X", "Y", "Z"}, TILE_COLOUR{"Red", "Green", "Blue"},
+    TILE_NORMAL{"NormalX", "NormalY", "NormalZ"};
+inline constexpr const char* TILE_INTENSITY = "Intensity";
+inline constexpr const char* TILE_CLASS = "Classification";
+inline constexpr const char* TILE_WITHHELD = "Withheld";
+/// How many points a mean of points is of.
+inline constexpr const char* TILE_COUNT = "PointCount";
 
 /// One number of a record: value = scale * number + offset.
 struct TileField {
@@ -38,6 +48,17 @@ struct TileSchema {
   /// A record's position.
   [[nodiscard]] glm::dvec3 position(const unsigned char* record) const;
 };
+
+/// The fields of these names, or nothing where one is missing; and their values.
+using TileFields = std::array<const TileField*, 3>;
+[[nodiscard]] TileFields tile_fields(const TileSchema& schema, const std::array<const char*, 3>& names);
+[[nodiscard]] glm::dvec3 tile_values(const TileFields& fields, const unsigned char* record);
+
+/// The schema of means of such records: these and TILE_COUNT behind them.
+[[nodiscard]] TileSchema tile_means_schema(TileSchema schema);
+
+/// Whether a class is one of noise, whose points are left out (LAS 1.4, 7 and 18).
+[[nodiscard]] bool is_noise_class(double number);
 
 /// Reads the member "schema" of the ept.json at `path`. Throws Error (input_unreadable), one sentence, for numbers of other sizes, and
 /// where X, Y or Z is missing.

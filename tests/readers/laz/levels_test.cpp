@@ -7,15 +7,19 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 #include <tuple>
 
+#include "preprocess/levels/level_folder.h"
+#include "preprocess/levels/level_means.h"
 #include "preprocess/levels/level_nodes.h"
 #include "preprocess/levels/write_levels.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/read/scan/input_files.h"
 #include "preprocess/read/tiles/ept.h"
+#include "preprocess/read/tiles/read_json.h"
 #include "preprocess/read/tiles/tile_schema.h"
 #include "tests/readers/las_file.h"
 #include "tests/readers/read_error.h"
@@ -113,6 +117,14 @@ class WrittenLevels : public ::testing::Test {
     return points;
   }
 
+  /// What a node's own file holds.
+  [[nodiscard]] Points points_of_node(const std::string& name, const LevelNode& node) const {
+    const TileSchema schema = read_tile_schema(read_json(ept(name)).at("schema"), ept(name));
+    const std::string file = node_name(node.level, node.cell) + ".bin";
+    ScanCounts counts;
+    return points_of_records(read_records(folder.path() / name / "ept-data" / file), schema, {}, counts);
+  }
+
   const TempFolder folder;
   std::vector<std::filesystem::path> files;
 };
@@ -140,9 +152,7 @@ TEST_F(WrittenLevels, AreAnOctreeOfEvenSamples) {
     if (node.parent != LevelNode::NO_PARENT) is_leaf[node.parent] = false;
   for (std::uint32_t i = 0; i < levels.nodes.size(); ++i) {
     const LevelNode& node = levels.nodes[i];
-    ReadOptions options;
-    options.nodes = {{ept("levels"), {i}}};
-    const Points points = read(ept("levels"), options);
+    const Points points = points_of_node("levels", node);
     ASSERT_EQ(points.size(), node.points);
     EXPECT_GT(node.points, 0U);
     const double edge = levels.edge / std::ldexp(1.0, static_cast<int>(node.level));
@@ -158,6 +168,141 @@ TEST_F(WrittenLevels, AreAnOctreeOfEvenSamples) {
       EXPECT_EQ(cells.size(), node.points) << "two points of a cell are no even sample";
     }
   }
+}
+
+/// The node of each point's place that is the deepest of those chosen, and whether it is where the octree ends.
+struct Deepest {
+  std::uint32_t node;
+  bool is_end;
+};
+
+Deepest deepest(const Levels& levels, const std::vector<bool>& is_chosen, const glm::dvec3& position) {
+  Deepest found{0, false};
+  for (std::uint32_t i = 1; i < levels.nodes.size(); ++i) {
+    const LevelNode& node = levels.nodes[i];
+    const double edge = levels.edge / std::ldexp(1.0, static_cast<int>(node.level));
+    if (node.parent != found.node || glm::uvec3(glm::floor((position - levels.low) / edge)) != node.cell)
+      continue;
+    if (!is_chosen[i]) return found;
+    found.node = i;
+  }
+  return {found.node, true};
+}
+
+TEST_F(WrittenLevels, HaveMeansForNodesThatAreNotRead) {
+  write("levels");
+  const Levels levels = levels_of(ept("levels"));
+  const Points all = read(ept("levels"));
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<bool> is_chosen(levels.nodes.size());
+    ReadOptions options;
+    options.scans.attributes = {TILE_COUNT};
+    std::vector<std::uint32_t>& chosen = options.nodes[ept("levels")];
+    for (std::uint32_t i = 0; i < levels.nodes.size(); ++i) {
+      is_chosen[i] = i == 0 || (is_chosen[levels.nodes[i].parent] && random() % 3 > 0);
+      if (is_chosen[i]) chosen.push_back(i);
+    }
+    // The points in each cell of a node where finer ones are not read.
+    std::map<std::tuple<std::uint32_t, int, int, int>, std::vector<glm::dvec3>> cells;
+    std::size_t as_they_are = 0, at_means = 0;
+    for (const glm::dvec3& position : all.position) {
+      const Deepest at = deepest(levels, is_chosen, position);
+      const double cell_m = levels.edge / std::ldexp(128.0, static_cast<int>(levels.nodes[at.node].level));
+      const glm::ivec3 cell((position - levels.low) / cell_m);
+      if (at.is_end)
+        ++as_they_are;
+      else
+        cells[{at.node, cell.x, cell.y, cell.z}].push_back(position - levels.low);
+    }
+    const Points found = read(ept("levels"), options);
+    ASSERT_EQ(found.size(), as_they_are + cells.size());
+    const Column& count = *find_column(found.columns, TILE_COUNT);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Deepest at = deepest(levels, is_chosen, found.position[i]);
+      ASSERT_EQ(at.is_end, count.number(i) == 0.0);
+      if (at.is_end) continue;
+      const double cell_m = levels.edge / std::ldexp(128.0, static_cast<int>(levels.nodes[at.node].level));
+      const glm::ivec3 cell((found.position[i] - levels.low) / cell_m);
+      const auto expected = cells.find({at.node, cell.x, cell.y, cell.z});
+      ASSERT_NE(expected, cells.end());
+      const std::vector<glm::dvec3>& points = expected->second;
+      ASSERT_EQ(count.number(i), static_cast<double>(points.size()));
+      const glm::dvec3 place = found.position[i] - levels.low;
+      const glm::dvec3 mean =
+          std::accumulate(points.begin(), points.end(), glm::dvec3(0.0)) / count.number(i);
+      // The mean, each level of which is rounded to the file's steps of 0.01, or of what is no surface a mean of some.
+      if (points.size() <= 3) {
+        ASSERT_LT(glm::distance(place, mean), 0.03);
+      }
+      at_means += glm::distance(place, mean) < 0.03 ? 1 : 0;
+    }
+    EXPECT_GT(at_means, cells.size() / 2);
+  }
+}
+
+TEST_F(WrittenLevels, OfOnePlaceTakeLittleMemory) {
+  LasFile file;
+  for (std::int32_t i = 0; i < 5000; ++i) {
+    LasRecord record;
+    record.position = i < 4990 ? std::array{7, 7, 7} : std::array{1000 * i, 0, 0};
+    record.intensity = static_cast<std::uint16_t>(i);
+    file.records.push_back(record);
+  }
+  const std::filesystem::path place = folder.write("place.las", file.bytes());
+  LevelSteps steps;
+  steps.most_part_points = 100;
+  EXPECT_EQ(write_levels({place}, {}, steps, ept("place")).points, 5000U);
+  std::multiset<double> expected, found;
+  const Points points = read(ept("place"));
+  ASSERT_EQ(points.size(), 5000U);
+  const Column& intensity = *find_column(points.columns, COLUMN_INTENSITY);
+  for (std::size_t i = 0; i < 5000; ++i)
+    expected.insert(static_cast<double>(i)), found.insert(intensity.number(i));
+  EXPECT_EQ(found, expected);
+}
+
+TEST(MeansOfPoints, AreOfLightAndOfTheMostFrequentClass) {
+  TileSchema schema;
+  using Kind = TileField::Kind;
+  for (const char* name : TILE_PLACE) schema.add({.name = name, .kind = Kind::floating, .bytes = 8});
+  for (const char* name : TILE_COLOUR) schema.add({.name = name, .bytes = 2});
+  for (const char* name : TILE_NORMAL) schema.add({.name = name, .kind = Kind::floating, .bytes = 4});
+  schema.add({.name = TILE_CLASS, .bytes = 1});
+  schema.add({.name = "ReturnNumber", .bytes = 1});
+  // Three of a cell, one of it that is noise, one of another cell.
+  const double values[5][11] = {{0.1, 0.2, 0.1, 0, 65535, 100, 0, 0, 1, 6, 1},
+                                {0.2, 0.2, 0.1, 65535, 65535, 100, 0, 0, 1, 2, 2},
+                                {0.3, 0.2, 0.4, 0, 65535, 100, 0, 0, -1, 2, 3},
+                                {0.3, 0.2, 0.4, 0, 0, 0, 0, 0, 1, 7, 4},
+                                {0.7, 0.2, 0.1, 5, 6, 7, 1, 0, 0, 9, 5}};
+  std::vector<unsigned char> records(5 * schema.record_bytes);
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t f = 0; f < 11; ++f)
+      schema.fields[f].store(values[i][f], records.data() + i * schema.record_bytes);
+  const auto means_of = [&](const std::vector<unsigned char>& of, const TileSchema& with) {
+    std::vector<unsigned char> means;
+    append_means(of, with, LevelLattice{glm::dvec3(0.0), 1.0}, 1, means);
+    return means;
+  };
+  const std::vector<unsigned char> means = means_of(records, schema);
+  const TileSchema with_counts = tile_means_schema(schema);
+  ASSERT_EQ(means.size(), 3 * with_counts.record_bytes);
+  const auto value = [&](std::size_t mean, const char* name) {
+    return with_counts.find(name)->value(means.data() + mean * with_counts.record_bytes);
+  };
+  EXPECT_NEAR(value(0, "X"), 0.2, 1e-12);
+  EXPECT_NEAR(value(0, "Z"), 0.2, 1e-12);
+  EXPECT_NEAR(value(0, "Red"), 65535.0 * std::pow(1.0 / 3.0, 1.0 / 2.2), 1.0);
+  EXPECT_EQ(value(0, "Green"), 65535.0);
+  EXPECT_EQ(value(0, "NormalZ"), 0.0) << "sides that cancel have no normal";
+  EXPECT_EQ(value(0, TILE_CLASS), 2.0);
+  EXPECT_EQ(value(0, "ReturnNumber"), 2.0);
+  EXPECT_EQ(value(0, TILE_COUNT), 3.0);
+  EXPECT_EQ(value(1, TILE_CLASS), 7.0);
+  EXPECT_EQ(value(2, "NormalX"), 1.0);
+  EXPECT_EQ(value(2, TILE_COUNT), 1.0);
+  EXPECT_EQ(means_of(means, with_counts), means) << "means of single means are these";
 }
 
 TEST_F(WrittenLevels, GoOnWhereTheyWereInterrupted) {
