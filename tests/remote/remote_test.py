@@ -70,6 +70,26 @@ def little_is_fetched(programs, server, folder):
     require("it is one block", [part for _, _, part in server.asked] == [(0, 65535)], server.asked)
 
 
+def requests_wait_together(programs, server, folder):
+    """For a tile of six megabytes, whose answers take long; its bytes come in order."""
+    tile = folder / "tile"
+    (tile / "ept-data").mkdir(parents=True)
+    (tile / "ept-hierarchy").mkdir()
+    points = hills(700)
+    (tile / "ept-data" / "0-0-0-0.bin").write_bytes(b"".join(struct.pack("<iii", *p) for p in points))
+    (tile / "ept-hierarchy" / "0-0-0-0.json").write_text(json.dumps({"0-0-0-0": len(points)}))
+    schema = [{"name": name, "type": "signed", "size": 4, "scale": 0.001} for name in "XYZ"]
+    (tile / "ept.json").write_text(json.dumps({"bounds": [0, 0, 0, 128, 128, 128], "dataType": "binary", "schema": schema, "version": "1.0.0"}))
+    read = []
+    server.most_waiting = 0
+    for place in (tile / "ept.json", f"{server.url}/slow/tile/ept.json"):
+        code, _, error = run(programs / "splatray-preprocess", place, "-o", folder / "tile.ply")
+        require("a tile is read", code == 0, error)
+        read.append((folder / "tile.ply").read_bytes().split(b"end_header\n")[1])
+    require("a tile is the same", read[0] == read[1])
+    require("several requests wait at a time", 2 <= server.most_waiting <= 8, server.most_waiting)
+
+
 def faults_are_sentences(programs, server, folder):
     cases = {"parts/none.las": "no such file on this server", "whole/hills.las": "gives no parts of files", "ring/hills.las": "more than 5 redirects",
              "changes/hills.las": "has changed on its server", "gone/hills.las": "does not answer", "shut/hills.las": "HTTP 403",
@@ -113,6 +133,7 @@ def main():
         pictures_are_equal(programs, server, folder)
         tiles_are_equal(programs, server, folder)
         little_is_fetched(programs, server, folder)
+        requests_wait_together(programs, server, folder)
         faults_are_sentences(programs, server, folder)
         certificates_are_checked(programs, folder)
 

@@ -1,12 +1,14 @@
 """serve.py: a server of files for tests, which misbehaves as it is told. Kinds, by the first folder of a path: `parts` gives ranges, `whole`
 gives all of a file whatever is asked, `moved` redirects to `parts`, `ring` to itself, `changes` has another version at each answer, `gone`
-hangs up in the middle of what is not at the file's begin, `busy` fails once before each answer, `shut` forbids."""
+hangs up in the middle of what is not at the file's begin, `busy` fails once before each answer, `shut` forbids, `slow` takes a fifth of a second
+for each."""
 
 import http.server
 import pathlib
 import re
 import ssl
 import threading
+import time
 
 RANGE = re.compile(r"^bytes=(\d+)-(\d+)$")
 
@@ -27,10 +29,22 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
     def do_GET(self):
         server = self.server
+        with server.lock:
+            server.waiting += 1
+            server.most_waiting = max(server.most_waiting, server.waiting)
+        try:
+            self.respond(server)
+        finally:
+            with server.lock:
+                server.waiting -= 1
+
+    def respond(self, server):
         kind, _, name = self.path.split("?")[0].lstrip("/").partition("/")
         file = server.folder / name
         asked = RANGE.match(self.headers.get("Range", ""))
         server.asked.append((kind, name, asked and (int(asked[1]), int(asked[2]))))
+        if kind == "slow":
+            time.sleep(0.2)
         if kind == "shut":
             self.answer(403)
         elif kind == "moved":
@@ -69,6 +83,7 @@ class Server(http.server.ThreadingHTTPServer):
     def __init__(self, folder, certificate=None, key=None):
         super().__init__(("127.0.0.1", 0), Handler)
         self.folder, self.asked = pathlib.Path(folder), []
+        self.lock, self.waiting, self.most_waiting = threading.Lock(), 0, 0  # requests without an answer
         if certificate:
             context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
             context.load_cert_chain(certificate, key)

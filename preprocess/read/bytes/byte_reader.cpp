@@ -89,6 +89,25 @@ std::vector<unsigned char> ByteReader::read(std::uint64_t count) {
   return bytes;
 }
 
+std::vector<unsigned char> ByteReader::read(std::span<const Range> ranges) {
+  if (listener_ != nullptr) listener_->report(static_cast<double>(offset_) / static_cast<double>(size_));
+  std::uint64_t bytes = 0;
+  for (const Range& range : ranges) {
+    if (range.offset > size_ || range.count > size_ - range.offset)
+      throw_unreadable(path_, "it could not be read to its end");
+    bytes += range.count;
+  }
+  std::vector<unsigned char> all(static_cast<std::size_t>(bytes));
+  std::vector<BytePart> parts;
+  std::size_t at = 0;
+  for (const Range& range : ranges) {
+    parts.push_back({range.offset, all.data() + at, static_cast<std::size_t>(range.count)});
+    at += static_cast<std::size_t>(range.count);
+  }
+  if (!source_->read_parts(parts)) throw_unreadable(path_, "it could not be read to its end");
+  return all;
+}
+
 bool ByteReader::skip(std::uint64_t count) {
   if (count > remaining()) return false;
   const bool is_buffered = count <= end_ - begin_;

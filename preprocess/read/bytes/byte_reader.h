@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,12 @@ class ByteReader {
 
   /// The next `count` bytes, or those that remain where these are fewer.
   [[nodiscard]] std::vector<unsigned char> read(std::uint64_t count);
+
+  /// The bytes of parts of the file, one behind the other; offset and count of each. What is read next is where it was.
+  struct Range {
+    std::uint64_t offset, count;
+  };
+  [[nodiscard]] std::vector<unsigned char> read(std::span<const Range> ranges);
 
   /// Skips bytes; false when fewer remain.
   [[nodiscard]] bool skip(std::uint64_t count);

@@ -4,8 +4,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 namespace splatray {
+
+/// Some bytes of a file, and where they go.
+struct BytePart {
+  std::uint64_t offset = 0;
+  unsigned char* to = nullptr;
+  std::size_t count = 0;
+};
 
 class ByteSource {
  public:
@@ -21,6 +29,13 @@ class ByteSource {
   /// Reads `count` bytes from `offset` on to `to`, fewer where the whole ends before; returns how many. Throws Error
   /// (input_unreadable), one sentence, for what can no longer be read.
   [[nodiscard]] virtual std::size_t read(std::uint64_t offset, unsigned char* to, std::size_t count) = 0;
+  /// Reads parts, all of which lie in the whole; a server's, some at a time. Returns false where one could not be read to its end.
+  /// Throws Error as read does.
+  [[nodiscard]] virtual bool read_parts(std::span<const BytePart> parts) {
+    for (const BytePart& part : parts)
+      if (read(part.offset, part.to, part.count) < part.count) return false;
+    return true;
+  }
 };
 
 /// Opens a regular file that is not empty, or what a URL names, by the module that has libcurl. Throws Error (input_unreadable), one

@@ -3,10 +3,13 @@
 #include <curl/curl.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <mutex>
 #include <string_view>
 #include <thread>
@@ -125,11 +128,14 @@ class RemoteSource : public ByteSource {
   [[nodiscard]] bool is_near() const override { return false; }
 
   [[nodiscard]] std::size_t read(std::uint64_t offset, unsigned char* to, std::size_t count) override {
-    const std::lock_guard lock(mutex_);
     if (offset >= size_) return 0;
+    const std::lock_guard lock(mutex_);
     const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - offset));
     std::size_t done = take_from_block(offset, to, wanted);
-    if (wanted - done >= BLOCK_BYTES) return done + part(offset + done, to + done, wanted - done);
+    if (wanted - done >= BLOCK_BYTES) {
+      const BytePart rest{offset + done, to + done, wanted - done};
+      return read_parts({&rest, 1}) ? wanted : done;
+    }
     while (done < wanted) {
       next_block(offset + done);
       const std::size_t got = take_from_block(offset + done, to + done, wanted - done);
@@ -139,16 +145,47 @@ class RemoteSource : public ByteSource {
     return done;
   }
 
+  [[nodiscard]] bool read_parts(std::span<const BytePart> parts) override {
+    std::vector<BytePart> requests;
+    for (const BytePart& part : parts)
+      for (std::size_t at = 0; at < part.count; at += REQUEST_BYTES)
+        requests.push_back({part.offset + at, part.to + at, std::min(REQUEST_BYTES, part.count - at)});
+    request_together(requests);
+    return true;
+  }
+
  private:
   /// What a small read takes at once, and how much it takes of a file that is read front to back.
   static constexpr std::size_t BLOCK_BYTES = std::size_t{1} << 16U, MOST_BLOCK_BYTES = std::size_t{1} << 22U;
+
+  static constexpr std::size_t REQUEST_BYTES = std::size_t{1}
+                                               << 20U;  ///< more are asked for by several requests
+
+  /// Some wait at a time: an answer comes after the way there and back, however short it is.
+  void request_together(std::span<const BytePart> requests) const {
+    constexpr std::size_t MOST_WAITING = 8;
+    std::atomic<std::size_t> next{0};
+    std::vector<std::future<void>> waiting;
+    for (std::size_t i = 0; i < std::min(requests.size(), MOST_WAITING); ++i)
+      waiting.push_back(std::async(std::launch::async, [&] {
+        try {
+          for (std::size_t at = next++; at < requests.size(); at = next++)
+            static_cast<void>(part(requests[at].offset, requests[at].to, requests[at].count));
+        } catch (...) {
+          next = requests.size();  // the others ask for no more
+          throw;
+        }
+      }));
+    for (const std::future<void>& one : waiting) one.wait();
+    for (std::future<void>& one : waiting) one.get();
+  }
 
   [[noreturn]] void refuse(const std::string& what) const {
     throw Error(ExitCode::input_unreadable, one_line(url_ + ": " + what));
   }
 
   /// What every request has.
-  void set_options(CURL* handle) {
+  void set_options(CURL* handle, char* said) const {
     constexpr long CONNECT_S = 20, STALLED_S = 30, REDIRECTS = 5;
     const bool is_safe = url_.starts_with("https:");
     curl_easy_setopt(handle, CURLOPT_URL, url_.c_str());
@@ -161,14 +198,14 @@ class RemoteSource : public ByteSource {
     curl_easy_setopt(handle, CURLOPT_LOW_SPEED_LIMIT, 1L);
     curl_easy_setopt(handle, CURLOPT_LOW_SPEED_TIME, STALLED_S);
     curl_easy_setopt(handle, CURLOPT_USERAGENT, "splatray");
-    curl_easy_setopt(handle, CURLOPT_ERRORBUFFER, said_);
+    curl_easy_setopt(handle, CURLOPT_ERRORBUFFER, said);
     curl_easy_setopt(handle, CURLOPT_HEADERFUNCTION, hear_header);
     curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, keep_body);
     if (const char* bundle = std::getenv("CURL_CA_BUNDLE")) curl_easy_setopt(handle, CURLOPT_CAINFO, bundle);
   }
 
   /// Bytes of the part from `offset` on. Throws where the server gives another part, or one of another file.
-  std::size_t part(std::uint64_t offset, unsigned char* to, std::size_t count) {
+  std::size_t part(std::uint64_t offset, unsigned char* to, std::size_t count) const {
     const Answer answer = ask(offset, to, count);
     if (answer.size != size_ || answer.version != version_)
       refuse("it has changed on its server while it was read");
@@ -194,26 +231,29 @@ class RemoteSource : public ByteSource {
   }
 
   /// Asks for a part until it is given. The file's begin may be asked for before its size is known.
-  Answer ask(std::uint64_t offset, unsigned char* to, std::size_t count) {
+  Answer ask(std::uint64_t offset, unsigned char* to, std::size_t count) const {
     constexpr int TRIES = 3;
     for (int tried = 1;; ++tried) {
-      const auto [code, answer] = request(offset, to, count);
+      std::array<char, CURL_ERROR_SIZE> said{};
+      const auto [code, answer] = request(offset, to, count, said.data());
       if (code == CURLE_OK && (answer.status == HAS_PART || answer.status == BEHIND_END)) return answer;
-      if (tried == TRIES || !may_pass(code, answer.status)) refuse(sentence(code, answer.status));
+      if (tried == TRIES || !may_pass(code, answer.status))
+        refuse(sentence(code, answer.status, said.data()));
       std::this_thread::sleep_for(std::chrono::milliseconds(400 * tried));
     }
   }
 
-  std::pair<CURLcode, Answer> request(std::uint64_t offset, unsigned char* to, std::size_t count) {
+  /// `said`: room for what libcurl says.
+  std::pair<CURLcode, Answer> request(std::uint64_t offset, unsigned char* to, std::size_t count,
+                                      char* said) const {
     Handle handle = idle_handles().take();
     if (handle == nullptr) refuse("libcurl could not be started");
-    set_options(handle.get());
+    set_options(handle.get(), said);
     Answer answer;
     answer.to = to;
     answer.room = count;
     answer.handle = handle.get();
     const std::string range = std::to_string(offset) + "-" + std::to_string(offset + count - 1);
-    said_[0] = '\0';
     curl_easy_setopt(handle.get(), CURLOPT_RANGE, range.c_str());
     curl_easy_setopt(handle.get(), CURLOPT_HEADERDATA, &answer);
     curl_easy_setopt(handle.get(), CURLOPT_WRITEDATA, &answer);
@@ -223,9 +263,9 @@ class RemoteSource : public ByteSource {
     return {code, answer};
   }
 
-  [[nodiscard]] std::string sentence(CURLcode code, long status) const {
+  static std::string sentence(CURLcode code, long status, const char* heard) {
     constexpr long WHOLE = 200, NOT_FOUND = 404, GONE = 410, FORBIDDEN = 403, UNAUTHORIZED = 401;
-    const std::string said = said_[0] != '\0' ? said_ : curl_easy_strerror(code);
+    const std::string said = heard[0] != '\0' ? heard : curl_easy_strerror(code);
     if (code == CURLE_PEER_FAILED_VERIFICATION || code == CURLE_SSL_CACERT_BADFILE)
       return "found a certificate that cannot be trusted (" + said +
              "), expected one of a known authority (CURL_CA_BUNDLE names a file of others)";
@@ -244,7 +284,6 @@ class RemoteSource : public ByteSource {
   }
 
   std::string url_;
-  char said_[CURL_ERROR_SIZE] = {};
   std::mutex mutex_;
   std::uint64_t size_ = 0;
   std::string version_;

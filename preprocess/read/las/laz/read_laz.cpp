@@ -192,24 +192,17 @@ class LazReader {
   /// Loads chunks, those that follow one another in one go; returns where each begins in `bytes_`.
   std::vector<std::size_t> load(std::span<const LazChunk> chunks) {
     std::vector<std::size_t> begins;
-    std::vector<unsigned char> all;
-    while (!chunks.empty()) {
-      const std::uint64_t begin = chunks.front().offset;
-      std::uint64_t end = begin;
-      std::size_t count = 0;
-      for (; count < chunks.size() && chunks[count].offset == end; ++count) {
-        begins.push_back(all.size() + static_cast<std::size_t>(end - begin));
-        end += chunks[count].bytes;
-      }
-      load(begin, end - begin);
-      if (bytes_.size() < end - begin) throw_unreadable(in_.path(), "it could not be read to its end");
-      if (all.empty())
-        all.swap(bytes_);
+    std::vector<ByteReader::Range> ranges;
+    std::uint64_t bytes = 0;
+    for (const LazChunk& chunk : chunks) {
+      begins.push_back(static_cast<std::size_t>(bytes));
+      bytes += chunk.bytes;
+      if (!ranges.empty() && ranges.back().offset + ranges.back().count == chunk.offset)
+        ranges.back().count += chunk.bytes;
       else
-        all.insert(all.end(), bytes_.begin(), bytes_.end());
-      chunks = chunks.subspan(count);
+        ranges.push_back({chunk.offset, chunk.bytes});
     }
-    bytes_ = std::move(all);
+    bytes_ = in_.read(ranges);
     return begins;
   }
 
