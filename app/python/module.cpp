@@ -213,6 +213,7 @@ void add_image(nb::module_& module) {
       .def_prop_ro("object", [](api::Image& image) { return channel<std::int32_t>(image, image.object, 1); })
       .def_prop_ro("error", [](api::Image& image) { return channel<float>(image, image.error, 1); })
       .def_prop_ro("albedo", [](api::Image& image) { return channel<float>(image, image.albedo, 3); })
+      .def_ro("lod_error", &api::Image::lod_error)
       .def_prop_ro("choices", [](const api::Image& image) { return choices_of(image.choices); })
       .def_rw("exposure", &api::Image::exposure)
       .def_rw("tone", &api::Image::tone)

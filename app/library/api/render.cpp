@@ -85,6 +85,7 @@ Image outer_image(const splatray::Image& made, const Shot& shot) {
   static_assert(sizeof(vec4) == sizeof(std::array<float, 4>));
   std::memcpy(image.pixels.data(), made.rgba.data(), made.rgba.size() * sizeof(vec4));
   image.choices = choices_of(shot);
+  image.lod_error = shot.lod_error;
   if (needs(request.output.aovs, AovSource::noise)) image.error = made.error;
   for (const vec4& albedo : made.albedo) image.albedo.push_back(array(vec3(albedo)));
   image.exposure = request.look.exposure_ev.value_or(0.0);
@@ -112,6 +113,7 @@ Image render(const Scene& scene, const Request& asked, const Progress& progress)
                                                    std::to_string(shot.view.height) + " pixels");
     return impl->on_device(relay, [&](SceneOnDevice& shown) {
       show(resolved, impl->loaded.facts, shown);
+      measure_lod_error(shot, shown, impl->loaded, [](const std::string&) {});
       const auto progressed = [&relay](double share) { return relay("tracing", share); };
       return outer_image(make_picture(shot, shown, shot.view.camera, progressed).image, shot);
     });

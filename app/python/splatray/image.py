@@ -63,6 +63,12 @@ class Image:
         return dict(self._core.choices)
 
     @property
+    def lod_error(self) -> str:
+        """Rendered with lod_error=True: what the points of a scan in levels that were not read change, such as
+        "mean +2.03 % (+0.09 to +3.96), PSNR 31.8 dB (29.0 to 42.5)", with 95 %; empty where all were read."""
+        return self._core.lod_error
+
+    @property
     def exposure(self) -> float:
         """Brightness of a .png, stops: as asked for, or what suits the picture; can be set."""
         return self._core.exposure
