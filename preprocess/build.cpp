@@ -115,19 +115,21 @@ std::vector<bool> find_computed(const Cloud& cloud) {
   return computed;
 }
 
-/// Whether points alone are all that there is: no surface is known of any, no radii make discs of them, and no camera, light or
-/// environment a scene. They are a scan in formats that models come in, too, whether their normals are given or not.
+/// Whether someone has lit the scene: points in it, scanned ones among them, are objects of a picture then.
+bool is_composed(const Scene& scene) { return !scene.lights.empty() || !scene.environment_path.empty(); }
+
+/// Whether points alone are all that there is: no surface is known of any, no radii make discs of them, no camera looks at them. They are a scan in formats that models come in, too, whether their normals are given or not.
 bool is_points_alone(const std::vector<Cloud>& clouds, const Scene& scene) {
   const bool alone = std::all_of(clouds.begin(), clouds.end(),
                                  [](const Cloud& cloud) { return cloud.measured && cloud.radius.empty(); });
-  return alone && !scene.camera && scene.lights.empty() && scene.environment_path.empty();
+  return alone && !scene.camera;
 }
 
 /// Estimates unknown normals; scans, which stand along `up`, unit, are freed of strays and noise, too.
 void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const glm::dvec3& up,
                        const Progress& progress, BuildStats& stats) {
   const AddedTime watch(stats.normals_ms);
-  const bool are_scan = is_points_alone(clouds, scene);
+  const bool are_scan = is_points_alone(clouds, scene), composed = is_composed(scene);
   std::size_t station = 0;  // of the scene: the object's first
   for (std::size_t object = 0; object < clouds.size(); ++object) {
     Cloud& cloud = clouds[object];
@@ -140,7 +142,7 @@ void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const glm::dvec
     std::uint32_t& flags = scene.materials[object].flags;
     if (estimated > 0 && estimated == cloud.size() && (flags & MATERIAL_DIELECTRIC) == 0)
       flags |= MATERIAL_TWO_SIDED;
-    if (cloud.measured && (are_scan || estimated > 0) && scene.stations.empty())
+    if (cloud.measured && !composed && (are_scan || estimated > 0) && scene.stations.empty())
       scene.stations.emplace_back(), stations = 1;
     for (std::size_t s = 0; s < std::min(stations, cloud.stations.size()); ++s) {
       scene.stations[station + s].noise_world = cloud.stations[s].noise_world;

@@ -239,7 +239,7 @@ std::optional<glm::dvec3> station_within(const Scene& scene, const PointSample& 
 }
 
 SceneKind kind_of_scan(const Scene& scene) {
-  if (scene.stations.empty() || !scene.lights.empty() || splat_count(scene) == 0) return SceneKind::none;
+  if (scene.stations.empty() || splat_count(scene) == 0) return SceneKind::none;
   const PointSample all = sample_points(scene);
   if (scene.camera || seeing_place(scene, all) || is_camera_frame(scene, all)) return SceneKind::camera;
   const PointSample sample = main_parts(all);

@@ -17,7 +17,7 @@ enum class SceneKind {
 };
 
 /// The kind of a scene. The rules, the first that holds:
-/// - none: it has no stations or no points, or lights of its own: scans stand in a scene that someone composed.
+/// - none: it has no stations or no points.
 /// - camera: it has a camera of its own, or seeing_place finds one, or its frame is a camera's (is_camera_frame).
 /// - room: is_within holds at a station, or at the middle of the points, and most normals face that place, overhead too.
 /// - sweep: points lie all around a station or, where no place is known, the origin, in 12 of 12 sectors of azimuth,

@@ -341,6 +341,8 @@ TEST(Build, PointsAloneAreAScanWhetherTheyHaveNormalsOrNot) {
   EXPECT_FALSE(are_scan(made, nothing));
   points.points.normal.clear();
   EXPECT_TRUE(are_scan(points, nothing));
+  EXPECT_TRUE(are_scan(points, [](Input& input) { input.camera.emplace(); })) << "what a camera saw";
+  EXPECT_FALSE(are_scan(points, [](Input& input) { input.lights.emplace_back(); })) << "someone has lit them";
 }
 
 TEST(Build, ProgressCanStopItInEveryStage) {
