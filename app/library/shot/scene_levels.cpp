@@ -14,8 +14,10 @@
 namespace splatray {
 namespace {
 
-/// Enough to show what a scan is; scans of so few points are read whole.
-constexpr std::uint64_t OVERVIEW_POINTS = 250'000;
+/// Scans of so few points are read whole.
+constexpr std::uint64_t FEW_POINTS = 250'000;
+/// Enough to show what a scan is: what decides looks at 65 536 points of a scene at most. The first picture waits for them.
+constexpr std::uint64_t OVERVIEW_POINTS = 100'000;
 
 /// How many points the memory that a request may take holds.
 std::uint64_t most_points(const Request& request) {
@@ -53,7 +55,7 @@ InLevels in_levels(const Request& request) {
     files.paths.push_back(file.path);
     files.levels.push_back(std::move(levels));
   }
-  return files.points() > OVERVIEW_POINTS ? files : InLevels{};
+  return files.points() > FEW_POINTS ? files : InLevels{};
 }
 
 ChosenNodes overview_of(const InLevels& files) {
