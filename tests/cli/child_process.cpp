@@ -138,4 +138,14 @@ std::string grid_ply(bool normals, double offset, double step) {
   return ascii_ply(vertices, normals);
 }
 
+std::string disc_grid_ply(double offset, double step) {
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+      text.replace(at, what.size(), by);
+    return text;
+  };
+  const std::string discs = replaced(grid_ply(true, offset, step), " 0 1 0\n", " 0 1 0 0.08\n");
+  return replaced(discs, "end_header", "property float radius\nend_header");
+}
+
 }  // namespace splatray
