@@ -90,6 +90,10 @@ TEST_F(CliSequences, CameraPathMoves) {
   const std::string still = write("still.json", near);
   ASSERT_EQ(render_to("still.png", {grid, "--camera", still}).code, 0);
   EXPECT_EQ(bytes("still.png"), bytes("a0.png"));
+  const std::string scan = write("scan.ply", grid_ply(true));
+  ASSERT_EQ(render_to("scan#.png", {scan, "--camera-path", path, "--frames=0-0"}).code, 0);
+  ASSERT_EQ(render_to("scan.png", {scan, "--camera", still}).code, 0);
+  EXPECT_EQ(bytes("scan.png"), bytes("scan0.png")) << "no view is chosen beside the path's";
 }
 
 TEST_F(CliSequences, WholeFramesAreSkippedAndBrokenOnesMadeAgain) {

@@ -28,11 +28,13 @@ void note(Shot& shot, const std::string& field, const std::string& text) {
   shot.choices.push_back({field, text});
 }
 
-/// Where a scan, or a model of a room, is seen from. An orbit is from outside.
+/// Where a scan, or a model of a room, is seen from. An orbit is from outside, a path has cameras of its own.
 void resolve_view(const SceneFacts& facts, Shot& shot) {
   Request::View& view = shot.request.view;
   const bool is_plain = facts.kind == SceneKind::none && facts.viewpoint == Viewpoint::front;
-  if (is_plain || view.eye || view.sheet || view.viewpoint != Viewpoint::automatic) return;
+  const bool is_asked = view.eye || view.sheet || !shot.request.output.camera_path.empty() ||
+                        view.viewpoint != Viewpoint::automatic;
+  if (is_plain || is_asked) return;
   const bool from_outside = shot.request.output.orbit_columns > 0;
   view.viewpoint =
       from_outside && facts.viewpoint == Viewpoint::inside ? Viewpoint::dollhouse : facts.viewpoint;
