@@ -45,9 +45,10 @@ function(use_precompiled folder of_libraries)
     get_target_property(type ${target} TYPE)
     get_target_property(own ${target} COMPILE_OPTIONS)
     get_target_property(links ${target} LINK_LIBRARIES)
+    list(FILTER own EXCLUDE REGEX "CONFIG:Release")  # such builds have no sanitizers and precompile nothing
     if(target MATCHES "^precompiled|^splatray_shaders$" OR NOT own STREQUAL options)  # shaders: arrays, which include little
       continue()
-    elseif(type MATCHES "(STATIC|SHARED|MODULE)_LIBRARY")
+    elseif(type MATCHES "(STATIC|SHARED|MODULE|OBJECT)_LIBRARY")
       skip_options_of_files(${target})
       target_precompile_headers(${target} REUSE_FROM ${of_libraries})
     elseif(type STREQUAL EXECUTABLE AND links MATCHES "GTest::gtest")
@@ -67,6 +68,13 @@ function(use_precompiled folder of_libraries)
 endfunction()
 
 use_precompiled(${PROJECT_SOURCE_DIR} precompiled)
+# With the tests' options, where these are their own.
+get_target_property(of_gpu splatray_gpu COMPILE_OPTIONS)
+get_property(of_tests DIRECTORY ${PROJECT_SOURCE_DIR}/tests PROPERTY COMPILE_OPTIONS)
+if(of_gpu STREQUAL of_tests)
+  skip_options_of_files(splatray_gpu)
+  target_precompile_headers(splatray_gpu REUSE_FROM precompiled_test_libraries)
+endif()
 # With options of its own, but many files.
 skip_options_of_files(splatray_preprocess)
 target_precompile_headers(splatray_preprocess PRIVATE ${headers} <tbb/parallel_for.h> <tbb/parallel_reduce.h> <tbb/parallel_sort.h>)
