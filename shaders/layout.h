@@ -411,6 +411,7 @@ SPLATRAY_CONST PAGES_MOST = 8u;  ///< of a pool: buffers one behind the other, w
 
 SPLATRAY_CONST OUTPUT_PICTURE = 0u;  ///< the mean of paths
 SPLATRAY_CONST OUTPUT_AOV = 1u;      ///< no paths: AovPixel of the ray through each pixel's centre
+SPLATRAY_CONST OUTPUT_BASE = 2u;  ///< the mean of paths, behind it that of their base colours: LOOK_LIT and its like
 
 /// Iterations of a loop that shows whether a driver cuts loops short (stage/paths.glsl).
 SPLATRAY_CONST LOOP_PROBE = 8u;

@@ -51,10 +51,15 @@ void refuse_cut_loops() {
 }
 
 Passes::Passes(Runner& runner, const Dispatch& dispatch, std::span<const Tile> tiles, std::uint32_t first)
-    : runner_(runner), dispatch_(dispatch), tiles_(tiles), work_(runner.work(dispatch)), pass_(first) {
+    : runner_(runner),
+      dispatch_(dispatch),
+      values_(dispatch.constants[SPEC_OUTPUT] == OUTPUT_BASE ? 2 : 1),
+      tiles_(tiles),
+      work_(runner.work(dispatch)),
+      pass_(first) {
   std::size_t pixels = 0;
   for (const Tile& tile : tiles) pixels += tile.pixels();
-  block_.resize(pixels);
+  block_.resize(values_ * pixels);
 }
 
 void Passes::add(std::uint32_t end, const Advance& advance) {
@@ -69,8 +74,8 @@ void Passes::add(std::uint32_t end, const Advance& advance) {
   std::vector<vec4> more = block_;
   std::size_t first = 0;
   for (const Tile& tile : tiles_) {
-    const std::span<vec4> means = std::span(more).subspan(first, tile.pixels());
-    const auto of_block = std::span<const vec4>(block_).subspan(first, tile.pixels());
+    const std::span<vec4> means = std::span(more).subspan(first, values_ * tile.pixels());
+    const auto of_block = std::span<const vec4>(block_).subspan(first, values_ * tile.pixels());
     bool again = false;
     const auto once = [&](std::uint64_t samples) { advance(again ? 0 : samples); };
     if (!trace(tile, means, next, once)) {
@@ -79,7 +84,7 @@ void Passes::add(std::uint32_t end, const Advance& advance) {
       std::copy(of_block.begin(), of_block.end(), means.begin());
       if (!trace(tile, means, next, once)) refuse_cut_loops();
     }
-    first += tile.pixels();
+    first += values_ * tile.pixels();
   }
   block_ = std::move(more);
   in_block_ = next - before_.samples();

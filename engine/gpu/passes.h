@@ -23,7 +23,8 @@ class Passes {
   /// Error (failed) where the driver cuts a single ray's loops.
   void add(std::uint32_t end, const Advance& advance);
   [[nodiscard]] std::uint32_t samples() const { return before_.samples() + in_block_; }  ///< in each pixel
-  /// Mean of each pixel of the tiles, one tile behind the other, of at least one sample.
+  /// Means of each pixel of the tiles, one tile behind the other, of at least one sample; with OUTPUT_BASE a tile's base colours
+  /// stand behind its radiance.
   [[nodiscard]] std::vector<vec4> means() const;
   [[nodiscard]] double trace_ms() const { return trace_ms_; }  ///< of all dispatches
 
@@ -33,6 +34,7 @@ class Passes {
 
   Runner& runner_;
   const Dispatch& dispatch_;
+  const std::size_t values_;  ///< means of a pixel
   const std::span<const Tile> tiles_;
   ThreadWork work_;
   SampleMean before_;           ///< of whole blocks

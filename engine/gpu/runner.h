@@ -45,7 +45,7 @@ class Runner {
   const DeviceProfile profile;
   const std::unique_ptr<Queue> queue;
   DeviceScene scene;
-  std::unique_ptr<Buffer> accumulation;     ///< of render(): means of a tile's pixels, vec4
+  std::unique_ptr<Buffer> accumulation;     ///< of render(): a tile's means, vec4, then base colours
   std::unique_ptr<Buffer> aov, rays, hits;  ///< of a tile, and of queries
   Counters counts{};                        ///< summed over dispatches that count
 

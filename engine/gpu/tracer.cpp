@@ -71,14 +71,14 @@ Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Se
 
 namespace {
 
-/// Puts pixels of tiles that stand one behind the other into an image.
-void place_tiles(std::span<const Tile> tiles, const std::vector<vec4>& means, std::vector<vec4>& rgba,
-                 std::uint32_t width) {
-  auto from = means.begin();
+/// Puts one of the `values` means of each pixel of tiles that stand one behind the other into an image.
+void place_tiles(std::span<const Tile> tiles, const std::vector<vec4>& means, std::size_t values,
+                 std::size_t which, std::vector<vec4>& image, std::uint32_t width) {
+  std::size_t first = 0;
   for (const Tile& tile : tiles) {
-    const auto end = from + static_cast<std::ptrdiff_t>(tile.pixels());
-    place(tile, std::vector<vec4>(from, end), rgba, width);
-    from = end;
+    const auto begin = means.begin() + static_cast<std::ptrdiff_t>(first + which * tile.pixels());
+    place(tile, std::vector<vec4>(begin, begin + static_cast<std::ptrdiff_t>(tile.pixels())), image, width);
+    first += values * tile.pixels();
   }
 }
 
@@ -102,9 +102,16 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
   const bool keeps = stopped == Stopped::kept;
   // Who stops a picture waits for a tile's samples.
   const std::uint32_t tile_pixels = keeps && runner.profile.slow ? PROMPT_PIXELS : TILE_PIXELS;
-  Picture picture =
-      impl.start_picture(look, view, settings, 1, tile_pixels, keeps ? range_bytes(settings.samples) : 0);
+  if (settings.albedo && settings.look == LOOK_PAPER)
+    throw Error(ExitCode::failed, "found base colours asked of LOOK_PAPER, expected another look");
+  const std::uint32_t values = settings.albedo ? 2 : 1;
+  Picture picture = impl.start_picture(look, view, settings, values, tile_pixels,
+                                       keeps ? values * range_bytes(settings.samples) : 0);
   Image& image = picture.image;
+  if (settings.albedo) {
+    picture.dispatch.constants[SPEC_OUTPUT] = OUTPUT_BASE;
+    image.albedo.resize(image.rgba.size());
+  }
   std::vector<vec4> first_half(settings.estimate_error ? image.rgba.size() : 0);
   const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
   // Made to its end, as without it nothing could be kept.
@@ -121,9 +128,11 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
     const auto tiles = std::span<const Tile>(picture.tiles).subspan(first, together);
     Passes passes(runner, picture.dispatch, tiles, keeps ? 1 : BLOCK_SAMPLES);
     add_samples(passes, half, stopped, advance);
-    if (half > 0) place_tiles(tiles, passes.means(), first_half, image.width);
+    if (half > 0) place_tiles(tiles, passes.means(), values, 0, first_half, image.width);
     if (passes.samples() == half) add_samples(passes, settings.samples, stopped, advance);
-    place_tiles(tiles, passes.means(), image.rgba, image.width);
+    const std::vector<vec4> means = passes.means();
+    place_tiles(tiles, means, values, 0, image.rgba, image.width);
+    if (settings.albedo) place_tiles(tiles, means, values, 1, image.albedo, image.width);
     impl.stats.trace_ms += passes.trace_ms();
     impl.stats.samples = passes.samples();
     if (!settings.aov) continue;

@@ -18,13 +18,13 @@ struct Image {
   /// Means of the first `part_share` of each pixel's samples; empty as `error` is. They and the others are independent pictures.
   std::vector<vec4> part{};
   float part_share = 0.5F;
-  /// Base colours of the pixels, linear, 0 to 1, with coverage; empty unless asked for.
+  /// Base colours of the pixels, linear, 0 to 1, with coverage; empty unless Settings::albedo or asked for of a picture.
   std::vector<vec4> albedo{};
 };
 
 /// Bytes a pixel of the picture that is made with these settings, at most.
 [[nodiscard]] inline std::uint64_t image_bytes(const Settings& settings) {
-  return sizeof(vec4) + (settings.aov ? sizeof(AovPixel) : 0) +
+  return sizeof(vec4) + (settings.albedo ? sizeof(vec4) : 0) + (settings.aov ? sizeof(AovPixel) : 0) +
          (settings.estimate_error ? sizeof(vec4) + sizeof(float) : 0);
 }
 

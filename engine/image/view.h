@@ -74,6 +74,8 @@ struct Settings {
   /// rather than too low, as samples of both halves complete each other. Needs two samples.
   bool estimate_error = false;
   bool aov = false;  ///< also trace the centre rays' normal, depth, object
+  /// Also the mean of the base colours that the samples meet, of looks that have them but LOOK_PAPER. Of Tracer::render alone.
+  bool albedo = false;
   float environment_strength = 1.0F;
   /// Background radiance, >= 0; unset: the environment.
   std::optional<glm::vec3> background{};

@@ -21,6 +21,7 @@ struct Path {
   float pdf;           ///< of its direction, per solid angle; 0: nothing looked for lights before; < 0: lights met do not count
   uint below;          ///< directions chosen below the surface
   float energy_below;  ///< their throughput
+  vec3 base;           ///< OUTPUT_BASE: base colour of what the primary ray met, 0..1; white of lights
 #endif
 };
 
@@ -42,6 +43,7 @@ Path path_start(Ray ray) {
   path.pdf = 0.0f;
   path.below = 0u;
   path.energy_below = 0.0f;
+  path.base = vec3(1.0f);
 #endif
   return path;
 }

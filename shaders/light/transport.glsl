@@ -2,7 +2,7 @@
 // followed, both joined by multiple importance sampling (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation",
 // ch. 9). The blended normal is the geometric one too, but for normal maps: discs stand in for the smooth surface that it
 // estimates, not the other way round. Needs material_at(object), albedo_at(index), absorption_at(bit) and the constants LOOK,
-// LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, PANES and those of bsdf.glsl.
+// OUTPUT, LIGHTS, SHADOWS, EMISSION, GLASS, STRAIGHT, PANES and those of bsdf.glsl.
 #ifndef SPLATRAY_TRANSPORT_GLSL
 #define SPLATRAY_TRANSPORT_GLSL
 #include "lang/sobol.glsl"
@@ -249,6 +249,7 @@ void meet_environment(INOUT(Path) path) {
   if (SKY) share = mis_weight(path.pdf, path.pdf > 0.0f ? sky_pdf(path.ray.dir) * frame.sky_share : 0.0f);
   if (path.bounce == 0u) {
     path.radiance += path.throughput * background_radiance(path.ray.dir);
+    if (OUTPUT == OUTPUT_BASE) path.base = min(path.radiance, vec3(1.0f));
   } else {
     path.radiance += clamped(path.throughput * environment_radiance(path.ray.dir) * share, path.bounce - 1u);
   }
@@ -286,6 +287,7 @@ void shade_hit(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(E
   Basis basis = basis_of(hit.normal);
   vec3 to_eye = vec3(-dot(path.ray.dir, basis.u), -dot(path.ray.dir, basis.v), max(-dot(path.ray.dir, hit.normal), 1e-6f));
   Bsdf bsdf = bsdf_at(hit, material, eta, to_eye.z);
+  if (OUTPUT == OUTPUT_BASE && path.bounce == 0u) path.base = bsdf.base;
   vec4 random = sobol_sample(pixel, sample_index, 1u + 2u * path.bounce, frame.seed);
   if (LIGHTS || SKY || EMISSION || LOOK == LOOK_AO || LOOK == LOOK_SCAN)
     sample_lights(path, hit, bsdf, basis, to_eye, random, pixel, sample_index, emitter, tally);

@@ -53,16 +53,25 @@ void keep_mean(uint place, vec4 mean) {
 void add_samples(uvec2 pixel, uint place) {
   uint pixel_number = pixel.y * frame.width + pixel.x;
   vec4 mean = mean_before(place);
+#ifdef LIT
+  vec4 albedo = OUTPUT == OUTPUT_BASE ? mean_before(albedo_place(place)) : vec4(0.0f);
+#endif
   uint sample_index = frame.sample_begin;
   do {
     Tally tally = no_tally();
     Path path = path_start(sample_ray(pixel, sample_index));
     follow_path(path, pixel_number, sample_index, tally);
     mean = add_to_mean(mean, path.radiance, path.coverage, sample_index);
+#ifdef LIT
+    if (OUTPUT == OUTPUT_BASE) albedo = add_to_mean(albedo, path.base, path.coverage, sample_index);
+#endif
     if (COUNTERS) add_counters(path, tally);
     sample_index += 1u;
   } while (sample_index < frame.sample_end);
   keep_mean(place, mean);
+#ifdef LIT
+  if (OUTPUT == OUTPUT_BASE) accumulation[albedo_place(place)] = albedo;
+#endif
 }
 
 #endif

@@ -51,6 +51,11 @@ Ray sample_ray(uvec2 pixel, uint sample_index) {
 }
 #endif
 
+#ifdef LIT
+/// Where the accumulation holds the base colours of a pixel whose mean is at `place`: behind the means of the tile, which are its first.
+uint albedo_place(uint place) { return frame.tile_width * frame.tile_height + place; }
+#endif
+
 /// The mean of a pixel's samples so far, from FrameParams.mean_begin on.
 vec4 mean_before(uint place) {
   return frame.sample_begin == frame.mean_begin && frame.light_begin == 0u ? vec4(0.0f) : accumulation[place];

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "engine/base/error.h"
 #include "tests/all_tests.h"
 #include "tests/light/lit.h"
 
@@ -59,6 +60,30 @@ TEST_F(Denoise, LeavesWhatHasNoNoise) {
   image.part = image.rgba;
   const Image clean = denoised(image, base());
   EXPECT_LT(error_against(clean, image.rgba), 1e-3);
+}
+
+/// Blocks of samples, joined on the host, and a number that is no multiple of one.
+TEST_F(Denoise, BaseColoursComeWithThePicture) {
+  settings_.samples = 70;
+  const Image alone = picture(camera_, settings_, EDGE);
+  Settings plain = settings_;
+  plain.look = LOOK_BASE;
+  plain.aov = plain.estimate_error = false;
+  const Image base = picture(camera_, plain, EDGE);
+  settings_.albedo = true;
+  const Image both = picture(camera_, settings_, EDGE);
+  EXPECT_EQ(both.rgba, alone.rgba);
+  EXPECT_EQ(both.part, alone.part);
+  std::size_t met = 0, apart = 0;
+  for (std::size_t i = 0; i < base.rgba.size(); ++i) {
+    if (base.rgba[i].w == 0.0F) continue;
+    ++met;
+    apart += glm::all(glm::lessThan(glm::abs(both.albedo[i] - base.rgba[i]), vec4(1e-6F))) ? 0 : 1;
+  }
+  EXPECT_GT(met, EDGE * EDGE / 2);
+  EXPECT_EQ(apart, 0U);
+  settings_.look = LOOK_PAPER;
+  EXPECT_THROW(static_cast<void>(picture(camera_, settings_, EDGE)), Error);
 }
 
 /// A grey wall with noise of a standard error of a tenth, and two bright pixels.

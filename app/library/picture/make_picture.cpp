@@ -1,6 +1,7 @@
 #include "app/library/picture/make_picture.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/library/codec/picture_format.h"
 #include "app/library/picture/denoise.h"
@@ -67,7 +68,8 @@ MadePicture traced_picture(const Shot& shot, SceneOnDevice& shown, const Camera&
   const bool shows_albedo = needs(request.output.aovs, AovSource::albedo);
   if (!shot.denoises() && !shows_albedo) return made;
   Stopwatch watch;
-  std::vector<vec4> base = base_colors(shown.tracer(), look, view, settings);
+  std::vector<vec4> base = std::exchange(made.image.albedo, {});
+  if (base.empty()) base = base_colors(shown.tracer(), look, view, settings);
   if (shows_albedo) made.image.albedo = base;
   if (!shot.denoises()) return made;
   made.denoiser = remove_noise(made.image, std::move(base));

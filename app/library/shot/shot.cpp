@@ -36,6 +36,8 @@ Settings Shot::traced_settings() const {
   Settings traced = settings;
   traced.aov = traced.aov || denoises();
   traced.estimate_error = traced.estimate_error || denoises() || request.output.despeckle;
+  const bool meets_colors = settings.look == LOOK_LIT || settings.look == LOOK_SCAN;
+  traced.albedo = denoises() && meets_colors && !request.settings.has_goal() && request.output.resume.empty();
   return traced;
 }
 
