@@ -14,8 +14,11 @@
 #include "trace/blend.glsl"
 #include "trace/shadow.glsl"
 
-/// From this bounce on paths end by chance, as often as their light is weak.
-const uint ROULETTE_BOUNCE = 3u;
+/// From this bounce on paths end by chance, those with less than a half of their light, as often as it is less.
+const uint ROULETTE_BOUNCE = 1u;
+/// The same for mirrors' and clear glass's one direction: what is seen by them has no noise of its own.
+const uint ROULETTE_BOUNCE_DELTA = 3u;
+const float ROULETTE_LEFT = 0.5f;
 const float CLAY_ALBEDO = 0.8f;
 /// LOOK_SCAN: of a colour's brightness, what comes from the sky at points that nothing is near. Level ground and walls that face the
 /// viewer get the rest from the key light, whose cosine is 0.71 there and 0.58: its irradiance is 1 (app/library/shot/lights.cpp).
@@ -224,8 +227,8 @@ void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec
   // Mirrors and glass show light that only rays meet: behind the last vertex they still see where it comes from.
   bool cut = path.alive && takes_all_light(path.bounce) && (chosen.event & BSDF_DELTA) == 0u;
   cut_path(path, throughput, cut);
-  if (path.bounce >= ROULETTE_BOUNCE) {
-    float survival = min(most, 1.0f);
+  if (path.bounce >= ((chosen.event & BSDF_DELTA) != 0u ? ROULETTE_BOUNCE_DELTA : ROULETTE_BOUNCE)) {
+    float survival = min(most / ROULETTE_LEFT, 1.0f);
     path.alive = path.alive && random.w < survival;
     throughput /= max(survival, 1e-20f);
   }
