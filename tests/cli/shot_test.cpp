@@ -154,6 +154,9 @@ TEST(Shot, WithoutColoursShowsTheShapeInLight) {
   EXPECT_EQ(land.request.look.attributes.color_by, "height");
   EXPECT_EQ(land.request.look.style, LOOK_LIT);
   EXPECT_FALSE(land.settings.cutaway);
+  Request gold;
+  gold.look.material = "gold";
+  EXPECT_EQ(suited(site(), gold).look.attributes.color_by, "plain") << "no heights over what was asked for";
 }
 
 TEST(Shot, RoomsLieOpenUnlessAScannerStandsInThem) {

@@ -65,12 +65,14 @@ bool is_inside(const SceneFacts& facts, const Request& request) {
   return facts.kind == SceneKind::room && request.view.viewpoint == Viewpoint::inside;
 }
 
-/// Drawings of rooms and objects are on white paper; of sites heights are the content.
+/// Drawings of rooms and objects are on white paper; of sites heights are the content. Who names a material wants that and no colours
+/// over it.
 const char* resolve_colors(const SceneFacts& facts, const Request& request) {
   const bool inside = is_inside(facts, request);
   if (facts.has_colors) return "rgb";
   if (request.view.sheet && facts.kind != SceneKind::site && facts.kind != SceneKind::sweep)
     return ORIENTATION;
+  if (asks_for_materials(request.look)) return "plain";
   const bool land = facts.kind == SceneKind::site || facts.kind == SceneKind::sweep ||
                     (facts.kind == SceneKind::room && !inside);
   if (facts.has_intensity) return land ? "height+intensity" : "intensity";
