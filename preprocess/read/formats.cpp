@@ -43,7 +43,8 @@ constexpr Format READ_FORMATS[] = {
      "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra "
      "bytes",
      nullptr, nullptr, read_las, copc_levels},
-    {"ept.json", "Entwine point tiles of LAZ or of records, as files beside it", nullptr, nullptr, read_ept, ept_levels},
+    {"ept.json", "Entwine point tiles of LAZ or of records, packed by Zstandard or not, as files beside it",
+     nullptr, nullptr, read_ept, ept_levels},
     {".vpc", "virtual point clouds: scans that it names", nullptr, nullptr, nullptr, nullptr, read_vpc},
     {".e57",
      "scans with their poses and grids, cartesian or spherical; colours, intensity, normals; all bit widths",

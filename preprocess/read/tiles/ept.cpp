@@ -20,6 +20,7 @@
 #include "preprocess/read/tiles/read_json.h"
 #include "preprocess/read/tiles/stand_ins.h"
 #include "preprocess/read/tiles/tile_schema.h"
+#include "preprocess/read/tiles/zstandard.h"
 
 namespace splatray {
 namespace {
@@ -35,6 +36,7 @@ struct Head {
   std::array<glm::dvec3, 2> box{};
   std::string crs;
   std::optional<TileSchema> binary;  ///< of tiles that are records alone, else they are LAZ
+  bool is_packed = false;            ///< those records are, by Zstandard
   bool has_means = false;            ///< beside binary tiles, as splatray-preprocess writes them
 };
 
@@ -72,11 +74,13 @@ Head read_head(const Path& path) {
   head.box = head.json.contains("boundsConforming") ? box_of(path, head.json, "boundsConforming")
                                                     : std::array{low, high};
   const Json type = head.json.value("dataType", Json());
-  if (type == "binary")
+  head.is_packed = type == "zstandard";
+  if (type == "binary" || head.is_packed)
     head.binary = read_tile_schema(head.json.value("schema", Json()), path);
   else if (type != "laszip")
-    throw_unreadable(path, "found tiles of the type " + type.dump() + R"(, expected "laszip" or "binary")");
-  head.has_means = head.binary && head.json.value("means", Json()) == true;
+    throw_unreadable(
+        path, "found tiles of the type " + type.dump() + R"(, expected "laszip", "binary" or "zstandard")");
+  head.has_means = head.binary && !head.is_packed && head.json.value("means", Json()) == true;
   const Json system = head.json.value("srs", Json::object());
   const Json text = system.is_object() ? system.value("wkt", Json()) : Json();
   const unsigned horizontal = epsg_number(system, "horizontal");
@@ -167,12 +171,19 @@ struct TileFile {
   bool is_means = false;
 };
 
-std::vector<unsigned char> records_of(const Path& path, const TileSchema& schema) {
-  ByteReader in(path);
-  std::vector<unsigned char> records = in.read(in.remaining());
+std::vector<unsigned char> bytes_of(const TileFile& file, const TileSchema& schema, bool is_packed) {
+  if (is_packed)
+    return read_zstandard(file.path, std::min<std::uint64_t>(file.points, UINT32_MAX) * schema.record_bytes);
+  ByteReader in(file.path);
+  return in.read(in.remaining());
+}
+
+std::vector<unsigned char> records_of(const TileFile& file, const TileSchema& schema, bool is_packed) {
+  std::vector<unsigned char> records = bytes_of(file, schema, is_packed);
   if (records.size() % schema.record_bytes != 0)
-    throw_unreadable(path, "found " + std::to_string(records.size()) + " bytes, expected whole records of " +
-                               std::to_string(schema.record_bytes));
+    throw_unreadable(file.path, "found " + std::to_string(records.size()) +
+                                    " bytes, expected whole records of " +
+                                    std::to_string(schema.record_bytes));
   return records;
 }
 
@@ -189,10 +200,10 @@ void remove_replaced(const StandIns& stand_ins, const TileFile& file, const Tile
 }
 
 /// `stand_ins`: of scans that have means, else none.
-ScanFile read_binary_tile(const TileFile& file, const TileSchema& schema, const StandIns* stand_ins,
+ScanFile read_binary_tile(const TileFile& file, const Head& head, const StandIns* stand_ins,
                           const ReadOptions& options) {
-  const TileSchema of_file = file.is_means ? tile_means_schema(schema) : schema;
-  std::vector<unsigned char> records = records_of(file.path, of_file);
+  const TileSchema of_file = file.is_means ? tile_means_schema(*head.binary) : *head.binary;
+  std::vector<unsigned char> records = records_of(file, of_file, head.is_packed);
   const std::uint64_t stored = records.size() / of_file.record_bytes;
   if (stand_ins != nullptr && !file.is_means) remove_replaced(*stand_ins, file, of_file, records);
   ScanFile read;
@@ -206,7 +217,7 @@ Tile read_tile(const TileFile& file, const Head& head, const StandIns* stand_ins
   const Progress none;
   Tile tile;
   try {
-    tile.file = head.binary ? read_binary_tile(file, *head.binary, stand_ins, options)
+    tile.file = head.binary ? read_binary_tile(file, head, stand_ins, options)
                             : read_las(file.path, options, {tile.notes, none});
   } catch (const Error& error) {
     if (options.scans.strict || error.code() != ExitCode::input_unreadable) throw;
@@ -246,7 +257,7 @@ std::uint64_t means_of(const Json& counts, const std::string& name, const Path& 
 std::vector<TileFile> tile_files(const Path& path, const Head& head, const Levels& levels,
                                  const std::vector<std::uint32_t>& nodes, const StandIns* stand_ins) {
   const Path folder = path.parent_path();
-  const std::string extension = head.binary ? ".bin" : ".laz";
+  const std::string extension = head.is_packed ? ".zst" : head.binary ? ".bin" : ".laz";
   std::vector<TileFile> files;
   for (const std::uint32_t i : nodes)
     if (const LevelNode& node = levels.nodes[i]; node.points > 0)

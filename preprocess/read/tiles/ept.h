@@ -16,9 +16,8 @@ namespace splatray {
 /// below 0, pages that are missing.
 [[nodiscard]] Levels ept_levels(const std::filesystem::path& path);
 
-/// Reads the points of an `ept.json`, node by node as read_las does; tiles are LAZ, or records of
-/// the file's schema ("binary"). A tile that is missing or damaged gives what is whole,
-/// with a note, or is refused when options.scans.strict. Throws Error (input_unreadable), one sentence.
+/// Reads the points of an `ept.json`, node by node as read_las does; tiles are LAZ, or records of the file's schema ("binary", "zstandard").
+/// A tile that is missing or damaged gives what is whole, of a packed one nothing, with a note, or is refused when options.scans.strict. Throws Error (input_unreadable), one sentence.
 [[nodiscard]] ScanFile read_ept(const std::filesystem::path& path, const ReadOptions& options,
                                 const ReadListener& listener);
 

@@ -156,7 +156,7 @@ TEST_F(Tiles, HeadsOfOtherKindsAreASentence) {
     return head.replace(head.find(from), std::string(from).size(), to);
   };
   const std::pair<std::string, const char*> cases[] = {
-      {with("laszip", "zstandard"), "found tiles of the type \"zstandard\""},
+      {with("laszip", "brotli"), "found tiles of the type \"brotli\""},
       {with("[-1, -1, -1, 63, 63, 63]", "[1, 2]"), "found no bounds of six numbers"},
       {with("[-1, -1, -1, 63", "[63, -1, -1, -1"), "an octree without a size"},
       {"[]", "found no object"}};
