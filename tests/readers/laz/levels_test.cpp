@@ -1,6 +1,5 @@
 /// Scans written as levels and read again: the same points, in an octree, whatever interrupted the writing.
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -261,47 +260,6 @@ TEST_F(WrittenLevels, OfOnePlaceTakeLittleMemory) {
   for (std::size_t i = 0; i < 5000; ++i)
     expected.insert(static_cast<double>(i)), found.insert(intensity.number(i));
   EXPECT_EQ(found, expected);
-}
-
-std::string packed(const std::string& bytes) {
-  std::string frame(ZSTD_compressBound(bytes.size()), '\0');
-  frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
-  return frame;
-}
-
-TEST_F(WrittenLevels, ArePackedByZstandard) {
-  write("levels");
-  const std::vector<Row> expected = rows_of(read(ept("levels")));
-  std::string tile;  // the first of them
-  for (const auto& [name, bytes] : files_below(folder.path() / "levels")) {
-    std::string kept = bytes;
-    if (name == "ept.json") kept.replace(kept.find("binary"), std::string("binary").size(), "zstandard");
-    const bool is_tile = name.starts_with("ept-data/");
-    const std::string packed_name = is_tile ? name.substr(0, name.size() - 3) + "zst" : name;
-    if (is_tile && tile.empty()) tile = "packed/" + packed_name;
-    folder.write("packed/" + packed_name, is_tile ? packed(bytes) : kept);
-  }
-  EXPECT_TRUE(rows_of(read(ept("packed"))) == expected);
-
-  const std::string whole = files_below(folder.path())[tile];
-  ReadOptions strict;
-  strict.scans.strict = true;
-  const auto sentence = [&](const std::string& bytes) {
-    folder.write(tile, bytes);
-    try {
-      read(ept("packed"), strict);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::input_unreadable);
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  std::string flipped = whole;
-  flipped[0] = 'x';
-  EXPECT_NE(sentence(flipped).find("a damaged Zstandard frame"), std::string::npos);
-  EXPECT_NE(sentence(whole.substr(0, whole.size() - 9)).find("ends in its middle"), std::string::npos);
-  EXPECT_NE(sentence(packed(std::string(100'000'000, 'x'))).find("found more than"), std::string::npos);
-  EXPECT_EQ(sentence(whole), "");
 }
 
 TEST(MeansOfPoints, AreOfLightAndOfTheMostFrequentClass) {

@@ -1,8 +1,11 @@
 /// Scans of several files by what lists them: Entwine point tiles and virtual point clouds.
 #include <gtest/gtest.h>
+#include <zstd.h>
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include "preprocess/read/formats.h"
 #include "preprocess/read/las/read_las.h"
@@ -88,6 +91,60 @@ TEST_F(Tiles, OfEntwineAreTheUnionOfTheirFiles) {
   EXPECT_EQ(read(ept(), root).points.position, whole.position);
   root.nodes = {{ept(), {0, 3}}};
   EXPECT_NE(read_error(ept(), root).find("found 3 nodes in its hierarchy"), std::string::npos);
+}
+
+/// Records of X, Y and Z, each an int32.
+std::string random_records(std::size_t count) {
+  std::mt19937 random(7);
+  std::vector<std::uint32_t> words(3 * count);
+  for (std::uint32_t& word : words) word = random() >> 8U;
+  std::string bytes(4 * words.size(), '\0');
+  std::memcpy(bytes.data(), words.data(), bytes.size());
+  return bytes;
+}
+
+std::string packed(const std::string& bytes) {
+  std::string frame(ZSTD_compressBound(bytes.size()), '\0');
+  frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
+  return frame;
+}
+
+TEST_F(Tiles, OfRecordsMayBePackedByZstandard) {
+  constexpr std::size_t STORED = 50000;
+  const std::string records = random_records(STORED), whole_frame = packed(records);
+  const auto head = [](const std::string& type) {
+    std::string schema;
+    for (const char* name : {"X", "Y", "Z"})
+      schema += (schema.empty() ? "" : ",") +
+                (R"({"type": "signed", "size": 4, "scale": 0.01, "name": ")" + std::string(name) + R"("})");
+    return R"({"bounds": [0, 0, 0, 200000, 200000, 200000], "version": "1.0.0", "dataType": ")" + type +
+           R"(", "schema": [)" + schema + "]}";
+  };
+  write("ept-hierarchy/0-0-0-0.json", R"({"0-0-0-0": )" + std::to_string(STORED) + "}");
+  write("ept.json", head("binary"));
+  write("ept-data/0-0-0-0.bin", records);
+  const Points expected = read(ept()).points;
+  ASSERT_EQ(expected.size(), STORED);
+  write("ept.json", head("zstandard"));
+  const std::filesystem::path tile = write("ept-data/0-0-0-0.zst", whole_frame);
+  EXPECT_EQ(read(ept()).points.position, expected.position);
+  EXPECT_TRUE(notes.empty());
+  write("ept-data/0-0-0-0.zst", packed(records.substr(0, 1200)) + packed(records.substr(1200)));
+  EXPECT_EQ(read(ept()).points.position, expected.position) << "two frames";
+
+  std::string flipped = whole_frame;
+  flipped[0] = 'x';
+  const std::pair<std::string, const char*> cases[] = {
+      {flipped, "a damaged Zstandard frame"},
+      {whole_frame.substr(0, whole_frame.size() - 9), "a Zstandard frame that ends in its middle"},
+      {packed(records + records), "more than 600000 bytes"},
+      {packed(std::string(100'000'000, 'x')), "more than 600000 bytes"}};
+  for (const auto& [bytes, sentence] : cases) {
+    write("ept-data/0-0-0-0.zst", bytes);
+    EXPECT_EQ(read(ept()).counts.missing, STORED) << sentence;
+    ASSERT_EQ(notes.size(), 1U) << sentence;
+    EXPECT_NE(notes[0].find(tile.string() + ": found " + sentence), std::string::npos) << notes[0];
+  }
 }
 
 TEST_F(Tiles, FoldersStandForTheirEptJson) {
