@@ -34,7 +34,7 @@ std::vector<Camera> orbit_cameras(const Camera& still, const glm::dvec3& up, std
 
 Settings Shot::traced_settings() const {
   Settings traced = settings;
-  traced.aov = traced.aov || denoises();
+  traced.aov = traced.aov || denoises() || std::holds_alternative<Orbit>(output);
   traced.estimate_error = traced.estimate_error || denoises() || request.output.despeckle;
   const bool meets_colors = settings.look == LOOK_LIT || settings.look == LOOK_SCAN;
   traced.albedo = denoises() && meets_colors && !request.settings.has_goal() && request.output.resume.empty();
