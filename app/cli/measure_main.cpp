@@ -147,6 +147,11 @@ int run(int argc, char** argv) {
         stderr,
         "splatray-measure: note: the scan is a depth camera's, whose depths may be farther off than the "
         "intervals say\n");
+  const bool has_lengths =
+      std::any_of(asked->measures.begin(), asked->measures.end(),
+                  [](const GivenMeasure& given) { return given.kind != MeasureKind::point; });
+  const double metres = has_lengths ? require_unit_metres(loaded.scene.crs, asked->unit_metres)
+                                    : asked->unit_metres.value_or(0.0);
   const std::unique_ptr<Device> device = open_device(HOST_DEVICE);
   SceneOnDevice shown(*device);
   shown.open(loaded.scene);
@@ -154,7 +159,7 @@ int run(int argc, char** argv) {
   std::vector<Measure> measures;
   for (const GivenMeasure& given : asked->measures)
     measures.push_back(take_measure(loaded.scene, region, given, &shown));
-  const MeasureFrame frame{loaded.scene.up, loaded.scene.crs, asked->unit_metres.value_or(0.0)};
+  const MeasureFrame frame{loaded.scene.up, loaded.scene.crs, metres};
   if (!asked->unit_metres && !(describe_crs(frame.crs).horizontal_metres > 0.0))
     std::fputs("splatray-measure: note: the file names no unit; its coordinates are taken for metres\n",
                stderr);

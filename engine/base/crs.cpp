@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <initializer_list>
 
 #include "engine/base/length_unit.h"
 #include "engine/base/number_text.h"
@@ -52,15 +54,20 @@ unsigned own_number(std::string_view text) {
   return 0;
 }
 
+/// The block of the first of some keywords that is there.
+std::string_view first_block(std::string_view text, std::initializer_list<std::string_view> keywords) {
+  for (const std::string_view keyword : keywords)
+    if (const std::string_view found = block(text, keyword); !found.empty()) return found;
+  return {};
+}
+
 Crs describe_wkt(std::string_view text) {
   Crs crs;
   const std::size_t name = text.find("[\"");
   if (name == std::string_view::npos) return crs;
   crs.name = text.substr(name + 2, text.substr(name + 2).find('"'));
-  std::string_view projected = block(text, "PROJCS[");
-  if (projected.empty()) projected = block(text, "PROJCRS[");
-  std::string_view vertical = block(text, "VERT_CS[");
-  if (vertical.empty()) vertical = block(text, "VERTCRS[");
+  const std::string_view projected = first_block(text, {"PROJCS[", "PROJCRS["});
+  const std::string_view vertical = first_block(text, {"VERT_CS[", "VERTCRS["});
   const bool has_angles = text.find("GEOGCS[") != std::string_view::npos ||
                           text.find("GEOGCRS[") != std::string_view::npos ||
                           text.find("GEODCRS[") != std::string_view::npos;
@@ -102,6 +109,25 @@ std::string epsg_text(unsigned horizontal, unsigned vertical, const Crs& units) 
 
 Crs describe_crs(std::string_view text) {
   return text.starts_with(EPSG) ? describe_numbers(text) : describe_wkt(text);
+}
+
+std::string horizontal_crs(const std::string& text) {
+  Crs crs = describe_crs(text);
+  if (text.starts_with(EPSG)) {
+    crs.vertical_metres = 0.0;
+    return epsg_text(crs.epsg, 0, crs);
+  }
+  if (first_block(text, {"VERT_CS[", "VERTCRS["}).empty()) return text;
+  const std::string_view own = first_block(text, {"PROJCS[", "PROJCRS[", "GEOGCS[", "GEOGCRS[", "GEODCRS["});
+  return own.empty() ? "" : std::string(own) + "]";
+}
+
+std::string different_units(const Crs& crs) {
+  constexpr double SAME = 1e-5;
+  if (!(crs.horizontal_metres > 0.0 && crs.vertical_metres > 0.0)) return "";
+  if (std::abs(crs.vertical_metres / crs.horizontal_metres - 1.0) < SAME) return "";
+  return "z is in " + length_name(crs.vertical_metres) + " while x and y are in " +
+         length_name(crs.horizontal_metres);
 }
 
 bool is_same_crs(std::string_view a, std::string_view b) {

@@ -24,6 +24,13 @@ struct Crs {
 /// Reads either kind of text. What is neither has no name.
 [[nodiscard]] Crs describe_crs(std::string_view text);
 
+/// The system of x and y alone, for heights that are no longer in its unit. A text that is of neither kind stays.
+[[nodiscard]] std::string horizontal_crs(const std::string& text);
+
+/// "z is in feet while x and y are in metres"; empty where the units of length are one or not said. Of the two feet, which differ
+/// by 2e-6, no account is taken.
+[[nodiscard]] std::string different_units(const Crs& crs);
+
 /// Whether two texts mean one system, as far as they say: they are equal, or their numbers or names are.
 [[nodiscard]] bool is_same_crs(std::string_view a, std::string_view b);
 

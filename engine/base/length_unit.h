@@ -3,6 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
+
+#include "engine/base/number_text.h"
 
 namespace splatray {
 
@@ -23,6 +26,12 @@ inline constexpr std::array LENGTH_UNITS = {
   for (const LengthUnit& unit : LENGTH_UNITS)
     if (std::abs(metres - unit.metres) < 1e-7 * unit.metres) return &unit;
   return nullptr;
+}
+
+/// "feet", or "units of 0.2 m" of one without a name.
+[[nodiscard]] inline std::string length_name(double metres) {
+  const LengthUnit* unit = find_length_unit(metres);
+  return unit != nullptr ? unit->name : "units of " + number_text(metres) + " m";
 }
 
 }  // namespace splatray

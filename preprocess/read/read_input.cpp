@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/one_line.h"
 #include "engine/base/utf8.h"
@@ -245,6 +246,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   if (left_out && scans.empty() && input.objects.empty()) throw Error(*left_out);
   require_one_system(scans);
   input.crs = one_crs(systems, input.notes);
+  if (options.scans.z_scale != 1.0) input.crs = horizontal_crs(input.crs);
   if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans), input.notes));
   note_missing_attributes(input, options.scans.attributes);
   finish_objects(input, options);

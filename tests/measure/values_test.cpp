@@ -8,6 +8,7 @@
 #include "app/library/codec/dxf.h"
 #include "app/library/measure/measure_file.h"
 #include "app/library/measure/measure_text.h"
+#include "app/library/measure/measure_words.h"
 #include "app/library/measure/surface_point.h"
 #include "app/library/picture/measuring.h"
 #include "app/library/request/value_text.h"
@@ -351,6 +352,26 @@ TEST(SurfacePoint, HoldsWhatSmoothingMovedItInTheInterval) {
   EXPECT_LT(std::abs(height.value), 0.1 * APART);
   EXPECT_LT(std::abs(height.value - APART), height.within);
   EXPECT_LT(height.within, 1.5 * APART);
+}
+
+TEST(Values, NothingIsMeasuredAcrossTwoUnits) {
+  const auto sentence = [](const std::string& crs) {
+    try {
+      (void)require_unit_metres(crs, std::nullopt);
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(sentence(""), "");
+  EXPECT_EQ(sentence("EPSG:2264;xy=0.3048006096012192;z=0.3048"), "") << "a part in 500 000";
+  EXPECT_DOUBLE_EQ(require_unit_metres("EPSG:25832;xy=1", std::nullopt), 1.0);
+  EXPECT_NE(sentence("EPSG:25832;xy=1;z=0.3048").find("z is in feet while x and y are in metres"),
+            std::string::npos);
+  EXPECT_NE(sentence("EPSG:25832;xy=1;z=0.3048").find("--z-scale 0.3048,"), std::string::npos);
+  EXPECT_NE(sentence("EPSG:4326;deg").find("degrees"), std::string::npos);
+  EXPECT_DOUBLE_EQ(require_unit_metres("EPSG:25832;xy=1;z=0.3048", 0.3048), 0.3048)
+      << "the user knows better";
 }
 
 }  // namespace

@@ -265,7 +265,7 @@ TEST(Las, UnitsThatDifferAreReported) {
   const auto wkt = [&](const std::string& text) { return notes(las_vlr("LASF_Projection", 2112, text)); };
   EXPECT_EQ(notes(geo_keys({{1024, 2}})).find("x and y are degrees"), 0U);
   EXPECT_EQ(notes(geo_keys({{1024, 1}, {3076, 9001}, {4099, 9003}})),
-            "z is in feet while x and y are in metres");
+            "z is in US survey feet while x and y are in metres");
   EXPECT_EQ(notes(geo_keys({{1024, 1}, {3076, 9003}, {4099, 9002}})), "");
   EXPECT_EQ(notes(geo_keys({{1024, 1}, {3076, 9001}})), "");
   const std::string geographic = R"(GEOGCS["WGS 84",DATUM["WGS_1984"],UNIT["degree",0.0174532925199433]])";
@@ -292,6 +292,25 @@ TEST(Las, CoordinateSystemIsKept) {
   EXPECT_EQ(crs({keys}), "EPSG:2264+5703;xy=0.3048006096012192;z=1");
   EXPECT_EQ(crs({geo_keys({{1024, 2}, {2048, 4326}})}), "EPSG:4326;deg");
   EXPECT_EQ(crs({geo_keys({{1024, 1}, {2048, 4326}, {3072, 32767}})}), "") << "a system of the user's own";
+}
+
+TEST(Las, ScaledHeightsLeaveTheirSystem) {
+  const TempFolder folder;
+  const auto crs = [&](const std::string& vlr, double z_scale) {
+    LasFile file = three_points();
+    file.vlrs = {vlr};
+    ReadOptions options;
+    options.scans.z_scale = z_scale;
+    return read_input({folder.write("a.las", file.bytes())}, options).crs;
+  };
+  const std::string keys = geo_keys({{1024, 1}, {3072, 25832}, {3076, 9001}, {4096, 6360}, {4099, 9003}});
+  EXPECT_EQ(crs(keys, 1.0), "EPSG:25832+6360;xy=1;z=0.3048006096012192");
+  EXPECT_EQ(crs(keys, 1200.0 / 3937.0), "EPSG:25832;xy=1");
+  const std::string projected = R"(PROJCS["UTM",GEOGCS["g"],UNIT["metre",1]])";
+  const std::string both = "COMPD_CS[\"both\"," + projected + R"(,VERT_CS["h",UNIT["foot",0.3048]]])";
+  EXPECT_EQ(crs(las_vlr("LASF_Projection", 2112, both), 1.0), both);
+  EXPECT_EQ(crs(las_vlr("LASF_Projection", 2112, both), 0.3048), projected);
+  EXPECT_EQ(crs(las_vlr("LASF_Projection", 2112, projected), 0.3048), projected);
 }
 
 TEST(Las, EveryPrefixIsReadOrRefused) {

@@ -46,11 +46,6 @@ class Lines {
   std::string text_;
 };
 
-std::string unit_text(double metres) {
-  const LengthUnit* unit = find_length_unit(metres);
-  return unit != nullptr ? unit->name : "units of " + short_text(metres) + " m";
-}
-
 std::string crs_text(const std::string& text) {
   if (text.empty()) return "not named";
   const Crs crs = describe_crs(text);
@@ -58,8 +53,8 @@ std::string crs_text(const std::string& text) {
   const std::string number = "EPSG:" + std::to_string(crs.epsg);
   if (crs.epsg != 0 && line != number) line += " (" + number + ")";
   if (crs.is_degrees) line += "; x and y are degrees";
-  if (crs.horizontal_metres > 0.0) line += "; x and y in " + unit_text(crs.horizontal_metres);
-  if (crs.vertical_metres > 0.0) line += "; z in " + unit_text(crs.vertical_metres);
+  if (crs.horizontal_metres > 0.0) line += "; x and y in " + length_name(crs.horizontal_metres);
+  if (crs.vertical_metres > 0.0) line += "; z in " + length_name(crs.vertical_metres);
   return line;
 }
 

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "engine/base/crs.h"
+#include "engine/base/error.h"
 #include "engine/base/length_unit.h"
+#include "engine/base/number_text.h"
 
 namespace splatray {
 namespace {
@@ -73,6 +75,20 @@ double unit_metres(const MeasureFrame& frame) {
   if (frame.unit_metres > 0.0) return frame.unit_metres;
   const double of_file = describe_crs(frame.crs).horizontal_metres;
   return of_file > 0.0 ? of_file : 1.0;
+}
+
+double require_unit_metres(const std::string& crs, std::optional<double> said_metres) {
+  if (said_metres) return *said_metres;
+  const Crs said = describe_crs(crs);
+  if (said.is_degrees)
+    throw Error(ExitCode::usage, "the file's coordinates are degrees (" + said.name +
+                                     "), in which nothing is to scale; expected a projected system, or the "
+                                     "unit by --unit, of a sheet unit=");
+  if (const std::string different = different_units(said); !different.empty())
+    throw Error(ExitCode::usage, different + ", in which nothing is to scale; expected --z-scale " +
+                                     number_text(said.vertical_metres / said.horizontal_metres) +
+                                     ", or the unit of all three by --unit, of a sheet unit=");
+  return unit_metres({{}, crs});
 }
 
 std::string length_symbol(double unit_metres) {

@@ -1,5 +1,6 @@
 /// How measures are written: each number with as many digits as its interval has two significant ones of, and a unit.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct MeasureFrame {
 
 /// Metres of a world unit.
 [[nodiscard]] double unit_metres(const MeasureFrame& frame);
+/// Metres of a world unit of a scene in that system (Scene::crs): as the user says, else as the system says, else 1. Throws where
+/// the user says nothing and a world unit is no length, or another one along z than along x and y.
+[[nodiscard]] double require_unit_metres(const std::string& crs, std::optional<double> said_metres);
 /// "m", "ft" and so on; "units" for a length that has no name.
 [[nodiscard]] std::string length_symbol(double unit_metres);
 /// "m", "m²", "m³", "°".

@@ -9,6 +9,7 @@
 #include "app/library/cut/cut_join.h"
 #include "app/library/cut/disc_radius.h"
 #include "app/library/cut/floor_levels.h"
+#include "app/library/measure/measure_words.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
@@ -85,7 +86,7 @@ void set_axes(const PlanAxes& plan, Sheet& sheet) {
 
 void set_unit(Sheet& sheet) {
   sheet.unit_known = sheet.asked.unit_metres || describe_crs(sheet.crs).horizontal_metres > 0.0;
-  sheet.unit_metres = sheet_unit_metres(sheet.asked, sheet.crs);
+  sheet.unit_metres = require_unit_metres(sheet.crs, sheet.asked.unit_metres);
   sheet.pixel_world = sheet.pixel_mm() * sheet.asked.scale / METRE_MM / sheet.unit_metres;
 }
 
@@ -197,16 +198,6 @@ std::vector<Contour> sheet_contours(const Scene& scene, const Region& region, co
 }
 
 }  // namespace
-
-double sheet_unit_metres(const SheetRequest& asked, const std::string& crs_text) {
-  const Crs crs = describe_crs(crs_text);
-  if (crs.is_degrees && !asked.unit_metres)
-    throw Error(
-        ExitCode::usage,
-        "the file's coordinates are degrees (" + crs.name +
-            "), of which a sheet cannot be to scale; expected a projected system, or unit= in --sheet");
-  return asked.unit_metres.value_or(crs.horizontal_metres > 0.0 ? crs.horizontal_metres : 1.0);
-}
 
 void require_sheet_pixels(double width, double height, std::size_t splats) {
   const std::string found =

@@ -6,9 +6,6 @@
 
 namespace splatray {
 
-/// Length of a world unit of a sheet in this system: as asked for, as the system says, or a metre. Throws Error (usage) for degrees.
-[[nodiscard]] double sheet_unit_metres(const SheetRequest& asked, const std::string& crs);
-
 /// Refuses sheets that take long for what is on them: a few points far apart at a large scale. Throws Error (usage).
 void require_sheet_pixels(double width, double height, std::size_t splats);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/library/cut/floor_levels.h"
+#include "app/library/measure/measure_words.h"
 #include "app/library/shot/sheet_placement.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
@@ -26,7 +27,7 @@ Sheet sheet_of(const Scene& scene, const Request& request, const SheetRequest& a
 std::vector<Sheet> floor_plans(const Scene& scene, const Request& request) {
   const SheetRequest& asked = *request.view.sheet;
   const glm::dvec3 up = request.look.up.value_or(scene.up);
-  const double metres = sheet_unit_metres(asked, scene.crs),
+  const double metres = require_unit_metres(scene.crs, asked.unit_metres),
                above = asked.above.value_or(ABOVE_METRES / metres);
   const Region region = region_of(request.view.region, up);
   std::vector<Sheet> plans;

@@ -4,6 +4,7 @@
 #include "app/library/measure/measure_file.h"
 #include "app/view/model/attempt.h"
 #include "app/view/ui/panel_parts.h"
+#include "engine/base/crs.h"
 
 namespace splatray {
 namespace {
@@ -48,6 +49,9 @@ bool measure_facts(const MeasureFrame& frame, Measure& measure) {
 void measure_panel(Document& document, PanelState& state) {
   kind_buttons(state);
   if (document.measures.empty()) return;
+  if (const std::string different = different_units(describe_crs(measure_frame(document).crs));
+      !different.empty())
+    ImGui::TextWrapped("%s: distances are right only with --z-scale", different.c_str());
   if (ImGui::SmallButton("copy all")) {
     ImGui::SetClipboardText(table_of(document.measures, measure_frame(document)).c_str());
     state.notice = "copied the measures: values and points, with tabs between";

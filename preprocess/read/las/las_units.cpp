@@ -1,14 +1,10 @@
 #include "preprocess/read/las/las_units.h"
 
-#include <cmath>
-
 #include "engine/base/crs.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
 namespace {
-
-constexpr double FOOT = 0.3048;
 
 /// EPSG's number that a key has, 0 where it has none of EPSG's.
 unsigned epsg_number(unsigned value) {
@@ -49,13 +45,6 @@ KeyedCrs crs_of_keys(const std::vector<unsigned char>& keys) {
   return found;
 }
 
-std::string unit_name(double metres) {
-  constexpr double SAME = 1e-4;  // the feet of the United States differ by 2e-6
-  if (std::abs(metres - 1.0) < SAME) return "metres";
-  if (std::abs(metres - FOOT) < SAME) return "feet";
-  return "units of " + std::to_string(metres) + " m";
-}
-
 Crs units_of(const LasVlrs& vlrs) {
   return vlrs.wkt.empty() ? crs_of_keys(vlrs.geo_keys).crs : describe_crs(vlrs.wkt);
 }
@@ -72,11 +61,8 @@ std::string las_crs(const LasVlrs& vlrs) {
 std::optional<std::string> differing_las_units(const LasVlrs& vlrs) {
   const Crs units = units_of(vlrs);
   if (units.is_degrees) return "x and y are degrees; the shape is right only in a projected system";
-  const std::string horizontal = unit_name(units.horizontal_metres);
-  const std::string vertical = unit_name(units.vertical_metres);
-  const bool is_known = units.horizontal_metres > 0.0 && units.vertical_metres > 0.0;
-  if (!is_known || horizontal == vertical) return std::nullopt;
-  return "z is in " + vertical + " while x and y are in " + horizontal;
+  const std::string sentence = different_units(units);
+  return sentence.empty() ? std::nullopt : std::optional(sentence);
 }
 
 std::optional<bool> las_in_degrees(const LasVlrs& vlrs) {

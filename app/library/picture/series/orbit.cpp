@@ -72,7 +72,7 @@ SequenceRecord make_orbit(const Shot& shot, SceneOnDevice& shown, const Sequence
   page.width = shot.view.width;
   page.height = shot.view.height;
   page.depth_step = DEPTH_STEP;
-  page.unit_metres = crs.horizontal_metres;
+  page.unit_metres = different_units(crs).empty() ? crs.horizontal_metres : 0.0;
   page.columns = orbit.columns;
   SequenceRecord record;
   std::vector<std::vector<float>> depths;
