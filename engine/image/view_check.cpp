@@ -73,6 +73,13 @@ Camera from_other_side(Camera camera, const glm::dvec3& up) {
   return camera;
 }
 
+/// Whether each point was seen from a known place, so that its surface's front faces there.
+bool has_measured_sides(const Scene& scene) {
+  return !scene.stations.empty() &&
+         std::all_of(scene.stations.begin(), scene.stations.end(),
+                     [](const Station& station) { return station.sensor_world.has_value(); });
+}
+
 bool is_outside(Viewpoint viewpoint) {
   return viewpoint == Viewpoint::front || viewpoint == Viewpoint::oblique;
 }
@@ -109,7 +116,8 @@ CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint 
   const Camera camera = viewpoint_camera(scene, viewpoint, double(WIDTH) / HEIGHT, {});
   const ViewFigures all = view_figures(sample, camera, false);
   if (is_outside(viewpoint)) {
-    const bool closed = all.behind > CLOSED_BEHIND && is_built(sample, upright_axes(scene.up));
+    const bool closed =
+        all.behind > CLOSED_BEHIND && (has_measured_sides(scene) || is_built(sample, upright_axes(scene.up)));
     return {viewpoint, closed ? ViewFault::closed : ViewFault::none, all.behind};
   }
   if (viewpoint == Viewpoint::dollhouse) {
@@ -126,7 +134,7 @@ CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint 
 }
 
 std::vector<CheckedView> check_views(const Scene& scene, SceneKind kind, Viewpoint first) {
-  if (kind != SceneKind::room && kind != SceneKind::object && kind != SceneKind::site) return {{first}};
+  if (kind == SceneKind::none || kind == SceneKind::camera) return {{first}};
   const PointSample sample = main_parts(sample_points(scene));
   const bool from_above = first == Viewpoint::dollhouse;
   std::vector<CheckedView> checked;

@@ -88,6 +88,25 @@ TEST(CheckedViews, WallsThatTurnTheirBacksOpen) {
       << "it is looked into from its open side, where nothing faces away";
 }
 
+TEST(CheckedViews, ACaveThatWasScannedFromWithinOpens) {
+  OrientedPoints cave = cone({0, 0, 1});
+  for (auto& [position, normal] : cave) normal = -normal;
+  Scene scene = scan_scene(cave);
+  scene.stations[0].sensor_world = glm::dvec3(0.0, 0.0, 0.5);
+  for (const SceneKind kind : {SceneKind::sweep, SceneKind::object}) {
+    const std::vector<CheckedView> views = check_views(scene, kind, Viewpoint::oblique);
+    ASSERT_EQ(views.size(), 2U);
+    EXPECT_EQ(views[0].fault, ViewFault::closed);
+    EXPECT_EQ(views[1].viewpoint, Viewpoint::dollhouse);
+    EXPECT_EQ(views[1].fault, ViewFault::none);
+  }
+  scene.stations[0].sensor_world.reset();
+  EXPECT_EQ(check_views(scene, SceneKind::sweep, Viewpoint::oblique).size(), 1U) << "the sides are a guess";
+  Scene open = scan_scene(ground(true));
+  open.stations[0].sensor_world = glm::dvec3(0.0, 0.0, 6.0);
+  EXPECT_EQ(check_views(open, SceneKind::sweep, Viewpoint::oblique).size(), 1U);
+}
+
 TEST(DollHouse, IsLookedIntoFromWhereItsWallsFace) {
   const auto eye = [](const OrientedPoints& points) {
     return viewpoint_camera(scan_scene(points), Viewpoint::dollhouse, 1.5, {}).eye;
