@@ -7,6 +7,8 @@
 #include "app/library/shot/lights.h"
 #include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
+#include "engine/base/srgb.h"
+#include "engine/scene/scene_splat.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {
@@ -157,6 +159,25 @@ TEST(Shot, WithoutColoursShowsTheShapeInLight) {
   Request gold;
   gold.look.material = "gold";
   EXPECT_EQ(suited(site(), gold).look.attributes.color_by, "plain") << "no heights over what was asked for";
+}
+
+TEST(Shot, ColoursThatAreNormalsAreNotShown) {
+  Scene scene = room();
+  for (std::size_t i = 0; i < splat_count(scene); ++i) {
+    const glm::vec3 shown = glm::vec3(0.5) + glm::vec3(0.5) * glm::vec3(splat_at(scene, i).normal());
+    scene.color_pool.push_back(
+        pack_color({srgb_to_linear(shown.x), srgb_to_linear(shown.y), srgb_to_linear(shown.z)}));
+  }
+  const Shot shot = shot_of(scene);
+  EXPECT_EQ(said(shot), "a room: --view dollhouse --color-by height --look lit --denoise");
+  EXPECT_TRUE(std::any_of(shot.notes.begin(), shot.notes.end(), [](const std::string& note) {
+    return note.find("the normals' directions") != std::string::npos;
+  }));
+  Request asked;
+  asked.look.attributes.color_by = "rgb";
+  EXPECT_EQ(suited(scene, asked).look.attributes.color_by, "rgb");
+  std::rotate(scene.color_pool.begin(), scene.color_pool.begin() + 1, scene.color_pool.end());
+  EXPECT_EQ(suited(scene).look.attributes.color_by, "rgb") << "as bright, elsewhere";
 }
 
 TEST(Shot, RoomsLieOpenUnlessAScannerStandsInThem) {

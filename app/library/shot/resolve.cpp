@@ -84,6 +84,9 @@ void resolve_color_by(const SceneFacts& facts, Shot& shot) {
   if (facts.kind == SceneKind::none || !color_by.empty()) return;
   color_by = facts.color_by.empty() ? resolve_colors(facts, shot.request) : facts.color_by;
   note(shot, "color-by", color_by);
+  if (facts.shows_normals && facts.color_by.empty())
+    shot.notes.push_back(
+        "the colours are the normals' directions and are not shown; --color-by rgb shows them");
 }
 
 /// A section lies in the shade of what is above it: the sky's light shows it, too.
@@ -332,7 +335,8 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   choose_denoise(shot);
   shot.exposes = !request.look.exposure_ev && exposes_by_default(scene, request, shot.settings.look);
   shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;
-  shot.notes = ignored_options(asked, shot.settings.look);
+  for (std::string& ignored : ignored_options(asked, shot.settings.look))
+    shot.notes.push_back(std::move(ignored));
   note_closed(whole, facts, shot);
   if (facts.kind != SceneKind::none) shot.of = scan_kind_name(facts.kind);
   return shot;

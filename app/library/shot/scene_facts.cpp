@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/rank.h"
+#include "engine/scene/scene_splat.h"
 
 namespace splatray {
 namespace {
@@ -33,6 +34,28 @@ bool has_colors(const Scene& scene) {
   return false;
 }
 
+/// Whether colours show normals, half of a channel's range and the other half times their component, as programs export them: they
+/// say nothing of how bright the surface is. To NORMAL_STEPS of 255, of most splats; normals may be turned.
+bool are_normals(const Scene& scene) {
+  constexpr double NORMAL_STEPS = 24.0, MOST = 0.75;
+  if (scene.color_pool.empty()) return false;
+  std::size_t tried = 0, alike = 0;
+  for_each_splat(
+      scene,
+      [&](std::size_t i, const SceneSplat& splat) {
+        const std::uint32_t word = scene.color_pool[i];
+        const glm::dvec3 color(word & 255U, word >> 8U & 255U, word >> 16U & 255U);
+        const glm::dvec3 shown = color - 127.5, normal = 127.5 * splat.normal();
+        const auto is_near = [&](const glm::dvec3& other) {
+          return glm::all(glm::lessThan(glm::abs(shown - other), glm::dvec3(NORMAL_STEPS)));
+        };
+        ++tried;
+        alike += is_near(normal) || is_near(-normal) ? 1 : 0;
+      },
+      scene.color_pool.size() / SAMPLED + 1);
+  return static_cast<double>(alike) > MOST * static_cast<double>(tried);
+}
+
 bool has_intensity(const Scene& scene) {
   const Column* column = find_column(scene.columns, COLUMN_INTENSITY);
   if (column == nullptr || column->size() == 0) return false;
@@ -53,7 +76,8 @@ SceneFacts facts_of(const Scene& scene) {
   facts.views = check_views(scene, facts.kind, choose_viewpoint(scene));
   facts.viewpoint = facts.views.back().viewpoint;
   if (facts.kind == SceneKind::none) return facts;
-  facts.has_colors = has_colors(scene);
+  facts.shows_normals = are_normals(scene);
+  facts.has_colors = has_colors(scene) && !facts.shows_normals;
   facts.has_intensity = has_intensity(scene);
   return facts;
 }

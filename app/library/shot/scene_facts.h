@@ -17,7 +17,8 @@ struct SceneFacts {
   UpFound up{};                            ///< the way that it stands, and what decided it
   Viewpoint viewpoint = Viewpoint::front;  ///< that suits it
   std::vector<CheckedView> views{};        ///< that were tried (check_views), the last of which is shown
-  bool has_colors = false;                 ///< of its own that are not all alike
+  bool has_colors = false;                 ///< of its own that are not all alike, nor its normals
+  bool shows_normals = false;              ///< its colours are its normals, which say nothing of its surface
   bool has_intensity = false;              ///< that varies
   std::string color_by{};  ///< the colours that it is shown in were chosen for it; empty: they are its own
   ColorLegend legend{};    ///< of the colours that it is shown in
