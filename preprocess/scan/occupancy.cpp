@@ -11,19 +11,18 @@
 namespace splatray {
 namespace {
 
-constexpr double MOST_CELLS_ALONG = 256.0;  // along the longest side
 constexpr double REACHES = 2.5;
 
 }  // namespace
 
-Occupancy::Occupancy(const Cloud& cloud, double edge) : low_(INFINITY) {
+Occupancy::Occupancy(const Cloud& cloud, double edge, double along) : low_(INFINITY) {
   glm::dvec3 high(-INFINITY);
   for (const glm::vec3& coord : cloud.coord) {
     low_ = glm::min(low_, glm::dvec3(coord));
     high = glm::max(high, glm::dvec3(coord));
   }
   const glm::dvec3 extent = high - low_;
-  edge_ = std::max(edge, std::max({extent.x, extent.y, extent.z, 1e-6}) / MOST_CELLS_ALONG);
+  edge_ = std::max(edge, std::max({extent.x, extent.y, extent.z, 1e-6}) / along);
   size_ = glm::ivec3(extent / edge_) + 1;
   const auto cells = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
                      static_cast<std::size_t>(size_.z);

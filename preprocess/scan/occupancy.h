@@ -13,8 +13,8 @@ namespace splatray {
 /// Cubic cells over a cloud, in its coordinates.
 class Occupancy {
  public:
-  /// Cells of about `edge`, at least 1/256 of the cloud's extent, so that there are at most 2^24 or so.
-  Occupancy(const Cloud& cloud, double edge);
+  /// Cells of about `edge`, at least 1/`along` of the cloud's extent: at most 2^24 or so of 256, 2^27 bits of 512.
+  Occupancy(const Cloud& cloud, double edge, double along = 256.0);
 
   [[nodiscard]] double edge() const { return edge_; }
   /// The middles of at most `most` cells without points, an even choice of all in the cloud's box.

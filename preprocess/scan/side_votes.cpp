@@ -161,25 +161,70 @@ class PointRays {
   glm::dvec3 place_, normal_, u_, v_;
 };
 
+/// Finds layers so close to a point's that PointRays begins beyond them: the other face of a thin wall.
+class CloseLayers {
+ public:
+  CloseLayers(const Cloud& cloud, double edge)
+      : cloud_(cloud), fine_(cloud, FINE_EDGE * edge, FINE_ALONG), reach_(RAY_START * edge) {}
+
+  /// Whether one lies on that side of a point.
+  [[nodiscard]] bool has(std::size_t point, double sign) const {
+    const glm::dvec3 dir = sign * glm::dvec3(cloud_.normal[point]);
+    const double start = BEYOND_OWN * fine_.edge();
+    if (!(start < reach_)) return false;
+    const auto free = fine_.free_path(glm::dvec3(cloud_.coord[point]) + start * dir, dir);
+    return free && *free < reach_ - start;
+  }
+
+ private:
+  static constexpr double FINE_EDGE = 0.4;  // of the coarse cells' edge: the distance to the 8th place
+  static constexpr double FINE_ALONG = 512.0;
+  static constexpr double BEYOND_OWN = 1.8;  // edges: more than a cell's diagonal
+
+  const Cloud& cloud_;
+  const Occupancy fine_;
+  const double reach_;
+};
+
+/// The room that rays find on either side of a point, summed, and whether one of them leaves the cloud.
+struct SideRoom {
+  double room = 0.0;
+  bool sees_out = false;
+};
+
+SideRoom room_beside(const PointRays& rays, const Occupancy& space, std::uint32_t first, double sign,
+                     double beyond) {
+  constexpr double MOST = 4.0;  // more than any way through the cloud
+  SideRoom side;
+  for (std::uint32_t ray = first; ray < first + 4; ++ray) {
+    const std::optional<double> path = rays.cast(space, ray, sign);
+    side.room += std::min(path.value_or(beyond), MOST);
+    side.sees_out = side.sees_out || !path;
+  }
+  return side;
+}
+
 /// For each point the room in front of its normal against that behind: 1, -1, or 0 where both are the same or it has no vote.
 std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, const glm::dvec3& up,
                                     const Stage& stage) {
   const Occupancy space(cloud, cell_edge(survey));
-  const double beyond = is_room(cloud, survey, up) ? 0.0 : 4.0;  // more than any way through the cloud
+  const CloseLayers layers(cloud, space.edge());
+  const bool in_room = is_room(cloud, survey, up);
+  const double beyond = in_room ? 0.0 : 4.0;  // more than any way through the cloud
   const std::size_t stride = cloud.size() / MOST_VOTERS + 1;
   std::vector<std::int8_t> votes(cloud.size());
   parallel_each(stage, cloud.size() / stride, [&](std::size_t n) {
     const std::size_t i = n * stride;
     if (!cloud.on_surface(i)) return;
     const PointRays rays(cloud, i);
-    double room = 0.0;
-    for (std::uint32_t ray = 0; ray < 4; ++ray)
-      for (const double sign : {1.0, -1.0})
-        room +=
-            sign *
-            std::min(
-                rays.cast(space, static_cast<std::uint32_t>(n % 1024) * 4 + ray + 1, sign).value_or(beyond),
-                4.0);
+    const auto first = static_cast<std::uint32_t>(n % 1024) * 4 + 1;
+    SideRoom front = room_beside(rays, space, first, 1.0, beyond),
+             behind = room_beside(rays, space, first, -1.0, beyond);
+    // Behind the other face of a thin wall there is room too, which is none of this one's. Two bodies that nearly touch see no way out
+    // on their other sides.
+    if ((in_room || behind.sees_out) && layers.has(i, 1.0)) front.room = 0.0;
+    if ((in_room || front.sees_out) && layers.has(i, -1.0)) behind.room = 0.0;
+    const double room = front.room - behind.room;
     votes[i] = static_cast<std::int8_t>(room > 0.0 ? 1 : room < 0.0 ? -1 : 0);
   });
   return votes;

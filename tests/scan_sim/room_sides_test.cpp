@@ -60,6 +60,20 @@ struct SeenPoints {
   std::mt19937_64 random_{9};
 };
 
+/// Adds the lower half of an ellipsoid, its points even on it; `out`: seen from outside, else from inside.
+void add_lower_half(const glm::dvec3& half_size, double step, bool out, SeenPoints& seen) {
+  constexpr double GOLDEN = 2.399963;  // radians between neighbours of a sunflower
+  const double mean = (half_size.x + half_size.y + half_size.z) / 3.0;
+  const int count = static_cast<int>(2.0 * std::numbers::pi * mean * mean / (step * step));
+  for (int i = 0; i < count; ++i) {
+    const double z = -(i + 0.5) / count, across = std::sqrt(1.0 - z * z);
+    const glm::dvec3 unit(across * std::cos(GOLDEN * i), across * std::sin(GOLDEN * i), z);
+    seen.points.position.push_back(half_size * unit);
+    const glm::dvec3 normal = glm::normalize(unit / half_size);
+    seen.normal.push_back(out ? normal : -normal);
+  }
+}
+
 /// The share of right sides, in a format that promises `up`, or nothing.
 double right_sides(const SeenPoints& seen, const std::optional<glm::dvec3>& up = glm::dvec3(0.0, 0.0, 1.0)) {
   const BuiltScan built = build_scan(seen.points, {}, 0, up);
@@ -108,6 +122,35 @@ TEST(RoomSides, HalfARoomIsSeenFromWithin) {
   seen.add({0, 0, 0}, {6, 0, 0}, {0, 5, 0});
   seen.add({0, 0, 0}, {0, 5, 0}, {0, 0, 2.7});
   seen.add({0, 0, 0}, {0, 0, 2.7}, {6, 0, 0});
+  EXPECT_GT(right_sides(seen), 0.97);
+}
+
+/// Both faces of a bowl with a wall of 12 mm, whichever way it stands.
+TEST(RoomSides, ABowlHasTwoFaces) {
+  SeenPoints seen;
+  add_lower_half(glm::dvec3(0.15), 0.003, /*out=*/true, seen);
+  add_lower_half(glm::dvec3(0.138), 0.003, /*out=*/false, seen);
+  EXPECT_GT(right_sides(seen), 0.97);
+  for (std::vector<glm::dvec3>* all : {&seen.points.position, &seen.normal})
+    for (glm::dvec3& v : *all) v = {v.x, -v.y, -v.z};
+  EXPECT_GT(right_sides(seen), 0.97) << "upside down";
+  EXPECT_GT(right_sides(seen, std::nullopt), 0.97) << "up unknown";
+}
+
+/// A boat's hull was gone around, and nobody looked into it.
+TEST(RoomSides, AHullIsSeenFromOutside) {
+  SeenPoints seen;
+  add_lower_half({3.0, 1.0, 0.8}, 0.03, /*out=*/true, seen);
+  EXPECT_GT(right_sides(seen), 0.97);
+}
+
+TEST(RoomSides, ACourtyardIsSeenFromWithin) {
+  SeenPoints seen;
+  seen.step = 0.15;
+  seen.add({0, 0, 0}, {20, 0, 0}, {0, 16, 0});
+  seen.add_walls({0, 0, 0}, {20, 16, 7}, /*out=*/false);
+  seen.add_walls({8, 6, 0}, {10, 8, 1}, /*out=*/true);
+  seen.add({8, 6, 1}, {2, 0, 0}, {0, 2, 0});
   EXPECT_GT(right_sides(seen), 0.97);
 }
 
