@@ -32,6 +32,18 @@ TEST(Pts, CountsMayBeRightWrongMissingOrRepeated) {
             std::string::npos);
 }
 
+TEST(Pts, IntensityIsBehindColoursWhereNoCountSaysOtherwise) {
+  const TempFolder folder;
+  const std::string lines = "1 2 3 10 20 30 0.25\n4 5 6 255 0 128 0.5\n";
+  const ReadScan last = read_scan(folder.write("a.pts", lines));
+  EXPECT_EQ(last.file.points.stored_color.at(0), glm::u16vec3(10, 20, 30));
+  EXPECT_EQ(find_column(last.file.points.columns, COLUMN_INTENSITY)->number(0), 0.25);
+  EXPECT_TRUE(last.has_note("column 7 is taken as the intensity"));
+  const ReadScan counted = read_scan(folder.write("b.pts", "2\n" + lines));
+  EXPECT_EQ(find_column(counted.file.points.columns, COLUMN_INTENSITY)->number(0), 10.0);
+  EXPECT_FALSE(counted.has_note("column 7"));
+}
+
 TEST(Pts, TextIsReadAsDouble) {
   const TempFolder folder;
   const ReadScan read = read_scan(folder.write("a.pts", "1\n4321234.123 +5512345.678 -1e2\n"));

@@ -130,6 +130,29 @@ TEST_F(Xyz, ColumnsWithoutNamesAreGuessedAndReported) {
   EXPECT_TRUE(read("1 2 3 4 5\n").has_note("2 columns behind x, y and z"));
 }
 
+TEST_F(Xyz, IntensityStandsWhereTheOthersAreColoursAndNormals) {
+  struct Case {
+    const char* rows;
+    const char* order;
+    double intensity;
+  };
+  for (const Case& one :
+       {Case{"1 2 3 10 20 30 0.25\n4 5 6 255 0 9 0.5\n", "colours, intensity;", 0.25},
+        {"1 2 3 10 20 30 1000\n4 5 6 255 0 9 200\n", "colours, intensity;", 1000.0},
+        {"1 2 3 1000 10 20 30\n4 5 6 200 255 0 9\n", "intensity, colours;", 1000.0},
+        {"1 2 3 10 20 30 0.25 0 0 1\n4 5 6 255 0 9 0.5 0 1 0\n", "colours, intensity, normals;", 0.25},
+        {"1 2 3 10 20 30 0 0 1 0.25\n4 5 6 255 0 9 0 1 0 0.5\n", "colours, normals, intensity;", 0.25}}) {
+    const ReadScan scan = read(one.rows);
+    EXPECT_TRUE(scan.has_note(std::string("taken as x, y, z, ") + one.order)) << one.rows;
+    EXPECT_EQ(value(scan, COLUMN_INTENSITY, 0), one.intensity) << one.rows;
+    ASSERT_FALSE(scan.file.points.stored_color.empty()) << one.rows;
+    EXPECT_EQ(scan.file.points.stored_color[0], glm::u16vec3(10, 20, 30)) << one.rows;
+  }
+  const ReadScan either = read("1 2 3 100 10 20 30\n4 5 6 200 255 0 9\n");
+  EXPECT_TRUE(either.has_note("intensity, colours, though by its values intensity could stand elsewhere"));
+  EXPECT_EQ(value(either, COLUMN_INTENSITY, 0), 100.0);
+}
+
 /// The stored red channel of the first point, as a share of full.
 double red(const ReadScan& scan) {
   const Points& points = scan.file.points;

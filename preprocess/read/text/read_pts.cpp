@@ -59,7 +59,7 @@ class PtsReader {
     if (!SurveyRows::is_width(run.width))
       rows_.fail(run.first_line, "found " + std::to_string(run.width) + " numbers, expected " +
                                      std::string(SurveyRows::EXPECTED));
-    points_.judge(run);
+    points_.judge(run, counted_);
     const std::optional<std::size_t> n = points_.normal_cell(run.width);
     if (run.open && counted_ && found_ + 1 < declared_) return;  // it may have lost digits
     for (std::size_t i = 0; i < run.rows; ++i) {

@@ -114,7 +114,7 @@ class PtxReader {
     if (!SurveyRows::is_width(run.width))
       rows_.fail(run.first_line + first, "found " + std::to_string(run.width) + " numbers, expected " +
                                              std::string(SurveyRows::EXPECTED));
-    points_.judge(run);
+    points_.judge(run, true);
     const std::optional<std::size_t> n = points_.normal_cell(run.width);
     if (run.open && scan_.cells + 1 < scan_.columns() * scan_.rows()) return;  // it may have lost digits
     for (std::size_t i = first; i < run.rows; ++i, ++scan_.cells) {

@@ -27,33 +27,39 @@ void fill_up(std::vector<Value>& list, std::size_t size, const Value& absent) {
 
 }  // namespace
 
-void SurveyRows::judge(const RowRun& run) {
+void SurveyRows::judge(const RowRun& run, bool intensity_first) {
   if (is_judged_ || run.width < 6) return;
   is_judged_ = true;
   constexpr std::size_t MOST = 1000;
-  const std::size_t count = std::min(run.rows, MOST);
-  const std::size_t first = run.width % 3 == 1 ? 4 : 3;
-  std::vector<float> columns[3];
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < 3; ++c) columns[c].push_back(static_cast<float>(run.row(i)[first + c]));
-  normals_first_ = are_normals({&columns[0], &columns[1], &columns[2]}, 0);
+  std::vector<std::vector<float>> values(run.width - 3);
+  std::vector<const std::vector<float>*> columns;
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    for (std::size_t i = 0; i < std::min(run.rows, MOST); ++i)
+      values[c].push_back(static_cast<float>(run.row(i)[3 + c]));
+    columns.push_back(&values[c]);
+  }
+  if (run.width % 3 == 1 && !intensity_first) intensity_cell_ = 3 + find_intensity(columns).column;
+  normals_first_ = are_normals(columns, triple_cell(run.width, 0) - 3);
+}
+
+std::size_t SurveyRows::triple_cell(std::size_t width, std::size_t triple) const {
+  const std::size_t cell = 3 + 3 * triple;
+  return width % 3 == 1 && intensity_cell_ <= cell ? cell + 1 : cell;
 }
 
 std::optional<std::size_t> SurveyRows::normal_cell(std::size_t width) const {
-  const std::size_t first = width % 3 == 1 ? 4 : 3;
-  if (width >= first + 3 && normals_first_) return first;
-  return width >= first + 6 ? std::optional(first + 3) : std::nullopt;
+  const std::size_t cell = triple_cell(width, normals_first_ ? 0 : 1);
+  return width >= cell + 3 ? std::optional(cell) : std::nullopt;
 }
 
 void SurveyRows::append(const double* row, std::size_t width, const glm::dvec3& position_world,
                         const glm::dvec3& normal_world) {
   const std::size_t at = points_.size();
   points_.position.push_back(position_world);
-  const bool has_intensity = width % 3 == 1;
-  if (has_intensity)
-    append_at(intensity_, at, 0.0F, std::isfinite(row[3]) ? static_cast<float>(row[3]) : 0.0F);
-  const std::size_t first = has_intensity ? 4 : 3;
-  const std::size_t color = first + (normals_first_ ? 3 : 0);
+  const double intensity = row[std::min(intensity_cell_, width - 1)];
+  if (width % 3 == 1)
+    append_at(intensity_, at, 0.0F, std::isfinite(intensity) ? static_cast<float>(intensity) : 0.0F);
+  const std::size_t color = triple_cell(width, normals_first_ ? 1 : 0);
   if (width >= color + 3)
     for (std::size_t c = 0; c < 3; ++c) append_at(channel_[c], at, NAN, static_cast<float>(row[color + c]));
   if (normal_cell(width)) append_at(points_.normal, at, glm::vec3(0.0F), glm::vec3(normal_world));
@@ -80,6 +86,9 @@ void SurveyRows::store_all_colors(std::vector<std::string>& notes) {
 }
 
 Points SurveyRows::take(std::vector<std::string>& notes) {
+  if (intensity_cell_ != 3)
+    notes.push_back("by its values column " + std::to_string(intensity_cell_ + 1) +
+                    " is taken as the intensity, and not column 4; --columns names them otherwise");
   store_all_colors(notes);
   fill_up(points_.normal, points_.size(), glm::vec3(0.0F));
   fill_up(intensity_, points_.size(), 0.0F);
