@@ -73,6 +73,19 @@ TEST_F(Xyz, HeadersStandInCommentsAndOrder) {
   }
 }
 
+TEST_F(Xyz, HeadersOfParaViewNameColumns) {
+  const ReadScan scan = read(
+      "\"RGB:0\",\"RGB:1\",\"RGB:2\",\"Normals:0\",\"Normals:1\",\"Normals:2\",\"Points:0\",\"Points:1\","
+      "\"Points:2\"\n"
+      "255,128,0,0,0,1,1.5,-2,3e6\n");
+  EXPECT_EQ(scan.file.points.position.at(0), FIRST);
+  ASSERT_FALSE(scan.file.points.stored_color.empty());
+  EXPECT_EQ(scan.file.points.stored_color[0], glm::u16vec3(255, 128, 0));
+  ASSERT_FALSE(scan.file.points.normal.empty());
+  EXPECT_EQ(scan.file.points.normal[0], glm::vec3(0, 0, 1));
+  EXPECT_FALSE(read("Points:0,Points:1,Points:2,RGB:0,RGB:1,RGB:2\n1,2,3,4,5,6\n").has_note("skipped"));
+}
+
 TEST_F(Xyz, DegreesAreReported) {
   EXPECT_TRUE(read("Lon,Lat,Altitude\n8.5,47.3,400\n").has_note("degrees of longitude and latitude"));
   EXPECT_FALSE(read("Easting,Northing,Elevation\n2600000,1200000,400\n").has_note("degrees"));

@@ -14,7 +14,7 @@ struct Alias {
   std::string_view meaning;
 };
 
-/// The plainest first. PDAL, CloudCompare, VeloView, LAStools and the specifications of LAS call them so.
+/// The plainest first. PDAL, CloudCompare, ParaView, VeloView, LAStools and the specifications of LAS call them so.
 constexpr Alias ALIASES[] = {
     {"x", "x"},
     {"y", "y"},
@@ -53,12 +53,24 @@ constexpr Alias ALIASES[] = {
     {"red", "red"},
     {"green", "green"},
     {"blue", "blue"},
+    {"normals0", "nx"},
+    {"normals1", "ny"},
+    {"normals2", "nz"},
     {"diffusered", "red"},
     {"diffusegreen", "green"},
     {"diffuseblue", "blue"},
     {"r", "red"},
     {"g", "green"},
     {"b", "blue"},
+    {"rgb0", "red"},
+    {"rgb1", "green"},
+    {"rgb2", "blue"},
+    {"rgba0", "red"},
+    {"rgba1", "green"},
+    {"rgba2", "blue"},
+    {"colors0", "red"},
+    {"colors1", "green"},
+    {"colors2", "blue"},
     {"rf", "red"},
     {"gf", "green"},
     {"bf", "blue"},
