@@ -8,6 +8,7 @@
 #include "engine/base/srgb.h"
 #include "engine/scene/scene_splat.h"
 #include "preprocess/base/little_endian.h"
+#include "preprocess/base/splat_marks.h"
 
 namespace splatray {
 namespace {
@@ -102,6 +103,14 @@ void add_columns(const Scene& scene, const LeftOut& left_out, PointTable& table)
          [splats](std::size_t i) { return i < splats ? 0.0 : double{PointTable::LOW_NOISE}; }});
 }
 
+void add_words(const Scene& scene, PointTable& table) {
+  const std::vector<std::uint32_t>* const pools[] = {&scene.field_pool, &scene.clip_pool};
+  for (std::size_t n = 0; n < SPLAT_WORDS.size(); ++n)
+    if (const auto& pool = *pools[n]; table.splats_alone && !pool.empty())
+      table.words.push_back({std::string(SPLAT_WORDS[n]), ValueType::uint32,
+                             [&pool](std::size_t i) { return double(pool[i]); }});
+}
+
 }  // namespace
 
 std::size_t bytes_of(ValueType type) {
@@ -126,7 +135,7 @@ void store_value(ValueType type, double number, unsigned char* bytes) {
 
 PointTable make_point_table(const Scene& scene, const LeftOut& left_out) {
   const std::size_t splats = splat_count(scene);
-  PointTable table{scene, splats + left_out.position.size(), {}, {}};
+  PointTable table{scene, splats + left_out.position.size(), {}, {}, {}};
   table.splats_alone = left_out.position.empty();
   table.position = [&scene, &left_out, splats](std::size_t i) {
     return i < splats ? splat_at(scene, i).center_world() : left_out.position[i - splats];
@@ -138,6 +147,7 @@ PointTable make_point_table(const Scene& scene, const LeftOut& left_out) {
                                   return i < splats ? double(splat_at(scene, i).object()) : 0.0;
                                 }});
   add_columns(scene, left_out, table);
+  add_words(scene, table);
   return table;
 }
 

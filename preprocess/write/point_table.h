@@ -41,6 +41,8 @@ struct PointTable {
   /// nx ny nz radius, red green blue (display-encoded) where there are colours, object where there are several, the columns.
   /// A radius is such that the splat that is packed of it is the same.
   std::vector<PointProperty> properties;
+  /// The words that splats alone have beside their 128 bits (SPLAT_WORDS), for formats that keep marks (splat_marks.h).
+  std::vector<PointProperty> words;
   bool splats_alone = true;  ///< nothing was left out
 };
 

@@ -17,7 +17,7 @@ namespace splatray {
 /// - .las 1.4: coordinates on the scene's lattice; intensity, class, return, returns, source and time where LAS has them, all
 ///   others as extra bytes; the coordinate system as text or keys.
 /// - .csv: a line of names, then a line a point, numbers in the shortest form that reads as the same bits.
-/// - .vtp: VTK's XML, arrays appended raw, one vertex a point.
+/// - .vtp: VTK's XML, arrays appended raw, one vertex a point; what .ply has as comments is field data. Read again, the same bits.
 /// Throws Error (failed) where the file cannot be written or cannot hold the points, (interrupted) as `progress` says, called
 /// with the stage "writing".
 void write_points(const PointTable& table, const std::filesystem::path& path, const Progress& progress);

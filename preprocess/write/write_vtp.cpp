@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <map>
 
+#include "preprocess/base/splat_marks.h"
 #include "preprocess/write/point_output.h"
 
 namespace splatray {
@@ -50,6 +52,23 @@ class ArrayLines {
   std::uint64_t offset_ = 0;
 };
 
+/// The marks as lists of texts by their keys, letters as numbers, as VTK has them in ASCII: none ends the XML.
+std::string field_data(const std::vector<SplatMark>& marks) {
+  std::map<std::string, std::vector<std::string>> lists;
+  for (const SplatMark& mark : marks) lists[mark.key].push_back(mark.text);
+  std::string xml = "<FieldData>\n";
+  for (const auto& [key, texts] : lists) {
+    xml += "<Array type=\"String\" Name=\"" + key + "\" NumberOfTuples=\"" + std::to_string(texts.size()) +
+           "\" format=\"ascii\">\n";
+    for (const std::string& text : texts) {
+      for (const unsigned char letter : text) xml += std::to_string(letter) + ' ';
+      xml += "0\n";
+    }
+    xml += "</Array>\n";
+  }
+  return xml + "</FieldData>\n";
+}
+
 }  // namespace
 
 void write_vtp(const PointTable& table, PointOutput& out) {
@@ -60,14 +79,17 @@ void write_vtp(const PointTable& table, PointOutput& out) {
       places,
       {"connectivity", ValueType::uint32, {[](std::size_t i) { return double(i); }}},
       {"offsets", ValueType::uint32, {[](std::size_t i) { return double(i + 1); }}}};
-  const std::vector<VtpArray> data = point_arrays(table.properties);
+  std::vector<PointProperty> properties = table.properties;
+  properties.insert(properties.end(), table.words.begin(), table.words.end());
+  const std::vector<VtpArray> data = point_arrays(properties);
   arrays.insert(arrays.end(), data.begin(), data.end());
   const std::string count = std::to_string(table.size);
   ArrayLines lines(table.size);
   std::string header =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-      count + "\" NumberOfVerts=\"" + count +
+      "header_type=\"UInt64\">\n<PolyData>\n" +
+      field_data(splat_marks(table.scene, table.splats_alone)) + "<Piece NumberOfPoints=\"" + count +
+      "\" NumberOfVerts=\"" + count +
       "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
   header += lines.line(arrays[0]) + "</Points>\n<Verts>\n";
   header += lines.line(arrays[1]) + lines.line(arrays[2]) + "</Verts>\n<PointData Normals=\"Normals\"";

@@ -81,10 +81,13 @@ void expect_same_pools(const Scene& a, const Scene& b) {
   EXPECT_TRUE(a.clip_pool == b.clip_pool);
 }
 
-TEST(WritePly, ReadAgainAScanIsTheSameBits) {
+class WriteAgain : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Formats, WriteAgain, ::testing::Values("points.ply", "points.vtp"));
+
+TEST_P(WriteAgain, AScanIsTheSameBits) {
   const Scene scene = built(corner_scan());
   ASSERT_FALSE(scene.clip_pool.empty()) << "the corner has creases";
-  const Scene again = read_again(scene);
+  const Scene again = read_again(scene, GetParam());
   expect_same_pools(scene, again);
   EXPECT_EQ(again.up, scene.up);
   EXPECT_EQ(again.crs, "PROJCS[\"UTM\",   UNIT[\"metre\",1]]") << "in one line";
@@ -103,6 +106,22 @@ TEST(WritePly, ReadAgainAScanIsTheSameBits) {
     for (std::size_t i = 0; i < column.size(); ++i)
       ASSERT_EQ(same->number(i), column.number(i)) << column.name;
   }
+}
+
+TEST_P(WriteAgain, UpSystemAndScansAreKeptBesideWhatWasLeftOut) {
+  Scene scene = built(corner_scan());
+  scene.up = glm::dvec3(1.0, 0.0, 0.0);
+  LeftOut left_out;
+  left_out.position = {glm::dvec3(600000.0, 5000000.0, 350.0)};
+  const TempFolder folder;
+  const Input input = read_input({written(scene, folder, GetParam(), left_out)}, {});
+  EXPECT_EQ(input.up, std::optional(scene.up));
+  EXPECT_EQ(input.crs, "PROJCS[\"UTM\",   UNIT[\"metre\",1]]");
+  const Points& points = input.objects.at(0).points;
+  EXPECT_FALSE(points.lattice) << "not all of them are splats";
+  ASSERT_EQ(points.stations.size(), 2U);
+  EXPECT_EQ(points.stations[1].name, "window");
+  EXPECT_EQ(points.stations[1].step_world, scene.stations[1].step_world);
 }
 
 TEST(WritePly, AnyWordsOfFieldsClipsAndEllipsesAreKept) {

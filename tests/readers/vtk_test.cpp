@@ -284,6 +284,24 @@ TEST(Vtk, LegacyFilesOfAllKindsAreRead) {
   EXPECT_NEAR(faces_of(axes).area, 22.0, 1e-9);
 }
 
+TEST(Vtk, WhatIsNotReadIsNamed) {
+  const TempFolder folder;
+  std::string text = VTP;
+  text.insert(text.find("<PolyData>") + 10,
+              "<FieldData>" + array("Float64", "TimeValue", "2.5", " NumberOfTuples=\"1\"") + "</FieldData>");
+  text.insert(text.find("</PointData>"),
+              "<Array type=\"String\" Name=\"label\" format=\"ascii\">65 0 66 0</Array>");
+  const Input input = read_input({folder.write("p.vtp", text)}, {});
+  EXPECT_TRUE(has_note(input, "skipped field data 'TimeValue'"));
+  EXPECT_TRUE(has_note(input, "without one number for each point: 'label'"));
+  const Input square =
+      read_input({folder.write("s.vtk", LEGACY_SQUARE +
+                                            "CELL_DATA 1\nSCALARS quality float\nLOOKUP_TABLE default\n1\n")},
+                 keeping_meshes());
+  EXPECT_TRUE(has_note(square, "skipped values of cells: 'quality'"));
+  EXPECT_TRUE(read_input({folder.write("q.vtp", VTP)}, {}).notes.empty());
+}
+
 TEST(Vtk, LegacyFilesThatLieAreRefused) {
   const TempFolder folder;
   const auto changed = [&](const std::string& from, const std::string& to) {

@@ -4,8 +4,8 @@
 
 #include "engine/base/number_text.h"
 #include "preprocess/base/quoted_list.h"
+#include "preprocess/base/splat_marks.h"
 #include "preprocess/read/ply/ply_scan.h"
-#include "preprocess/read/ply/ply_splats.h"
 #include "preprocess/read/ply/ply_vertices.h"
 #include "preprocess/read/scan/gaussian_capture.h"
 
@@ -137,6 +137,13 @@ void refuse_gaussians(const PlyElement& vertices, const std::filesystem::path& p
   refuse_gaussian_names(path, names);
 }
 
+std::vector<SplatMark> marks_of(const PlyHeader& header) {
+  std::vector<SplatMark> marks;
+  for (const std::string& remark : header.remarks)
+    if (auto mark = mark_of(remark)) marks.push_back(*std::move(mark));
+  return marks;
+}
+
 std::uint64_t append_faces(PlyBody& in, const PlyElement& element, std::uint64_t vertex_count, int list,
                            Mesh& mesh, std::vector<std::string>& skipped) {
   FaceReader faces(in, vertex_count, element.name == "tristrips", mesh.triangles);
@@ -185,6 +192,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
   const PlyElement& vertices = vertex_element(header, path);
   refuse_gaussians(vertices, path);
   const bool point_set = !has_triangles(header);
+  const std::vector<SplatMark> marks = marks_of(header);
   PlyBody in(bytes, header);
   Mesh mesh;
   std::vector<std::string> skipped;
@@ -196,7 +204,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
     const int list = find_index_list(element);
     if (&element == &vertices) {
       std::vector<std::string> attributes = options.scans.attributes;
-      if (has_splats(header))
+      if (has_splats(marks))
         for (const PlyProperty& property : element.properties) attributes.push_back(property.name);
       mesh.vertices = read_ply_vertices(in, element, point_set ? &attributes : nullptr, listener.notes);
       cut.note(element, mesh.vertices.size());
@@ -212,7 +220,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
   }
   in.finish();
   cut.report(path, options.scans, listener);
-  if (point_set) place_sensors(header, mesh.vertices), take_remarks(header, mesh.vertices);
+  if (point_set) place_sensors(header, mesh.vertices), take_marks(marks, mesh.vertices);
   if (!skipped.empty()) {
     listener.note(path, "skipped elements " + quoted_list(skipped));
   }

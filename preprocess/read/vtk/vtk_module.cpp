@@ -31,6 +31,7 @@
 #include "preprocess/read/scan/narrow_column.h"
 #include "preprocess/read/vtk/vtk_cells_check.h"
 #include "preprocess/read/vtk/vtk_colors.h"
+#include "preprocess/read/vtk/vtk_field_data.h"
 
 namespace splatray {
 namespace {
@@ -207,6 +208,7 @@ vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const Rea
   vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (data == nullptr) throw_unreadable(path, "VTK found no points in it");
   check_vtk_cells(data, path);
+  note_vtk_left_out(data, path, listener);
   drop_unfit_arrays(data->GetPointData(), data->GetNumberOfPoints());
   drop_unfit_arrays(data->GetCellData(), data->GetNumberOfCells());
   return data;
@@ -217,6 +219,15 @@ vtkSmartPointer<vtkDataSet> read_file(const std::filesystem::path& path, const R
   if (extension == ".vtp") return read_by<vtkXMLPolyDataReader>(path, listener);
   if (extension == ".vtu") return read_by<GridReader>(path, listener);
   return read_by<vtkDataSetReader>(path, listener);
+}
+
+/// What a file says of all its points; pieces say it of their own alone.
+std::vector<SplatMark> marks_of(const std::vector<vtkSmartPointer<vtkDataSet>>& pieces,
+                                const std::filesystem::path& path, const ReadListener& listener) {
+  std::vector<SplatMark> marks = read_vtk_marks(pieces[0]);
+  if (pieces.size() == 1 || marks.empty()) return marks;
+  listener.note(path, "skipped what it says of all its points, such as their up direction, as it is a piece");
+  return {};
 }
 
 /// The pieces as one, without the cells that a piece has of its neighbours; points at one place of volumes are one.
@@ -278,11 +289,12 @@ void add_columns(vtkDataArray* array, Points& points) {
   points.columns.push_back(narrow_column(name + "_Magnitude", std::move(squared)));
 }
 
-/// What is neither normal, colour nor radius, as far as scenes have room for.
-void copy_attributes(vtkPointData* attributes, const std::vector<vtkDataArray*>& used,
+/// What is neither normal, colour nor radius, as far as scenes have room for; splats' words (`has_words`) become no attributes.
+void copy_attributes(vtkPointData* attributes, const std::vector<vtkDataArray*>& used, bool has_words,
                      const std::filesystem::path& path, const ReadListener& listener, Points& points) {
   const auto count = static_cast<vtkIdType>(points.size());
   std::uint64_t left_out = 0;
+  std::size_t taken = 0;
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i) {
     vtkDataArray* array = attributes->GetArray(i);
     if (!is_beside(array, count) || array->GetName() == nullptr || array->GetName()[0] == 0) continue;
@@ -291,18 +303,23 @@ void copy_attributes(vtkPointData* attributes, const std::vector<vtkDataArray*>&
     if (std::find(used.begin(), used.end(), array) != used.end() || name == "vtkGhostType" || width == 0)
       continue;
     listener.report(0.9);
-    if (points.columns.size() + width + 1 > COLUMNS_MOST)
+    const bool is_word =
+        has_words && std::find(SPLAT_WORDS.begin(), SPLAT_WORDS.end(), name) != SPLAT_WORDS.end();
+    const std::size_t columns = is_word ? 0 : width == 2 || width == 3 ? width + 1 : width;
+    if (taken + columns > COLUMNS_MOST) {
       ++left_out;
-    else
+    } else {
       add_columns(array, points);
+      taken += columns;
+    }
   }
   if (left_out > 0)
     listener.note(path, std::to_string(left_out) + " arrays are left out, as scenes have at most " +
                             std::to_string(COLUMNS_MOST) + " attributes");
 }
 
-void copy_points(vtkPointSet* data, const std::filesystem::path& path, const ReadListener& listener,
-                 Points& points) {
+void copy_points(vtkPointSet* data, bool has_words, const std::filesystem::path& path,
+                 const ReadListener& listener, Points& points) {
   const vtkIdType count = data->GetNumberOfPoints();
   points.position.resize(static_cast<std::size_t>(count));
   for (vtkIdType i = 0; i < count; ++i) data->GetPoint(i, &points.position[static_cast<std::size_t>(i)].x);
@@ -322,7 +339,7 @@ void copy_points(vtkPointSet* data, const std::filesystem::path& path, const Rea
     used.push_back(radii);
     for (vtkIdType i = 0; i < count; ++i) points.radius.push_back(static_cast<float>(radii->GetTuple1(i)));
   }
-  copy_attributes(attributes, used, path, listener, points);
+  copy_attributes(attributes, used, has_words, path, listener, points);
 }
 
 /// Triangles of cells that check_vtk_cells has seen.
@@ -339,14 +356,19 @@ void copy_cells(vtkCellArray* cells, bool strips, Mesh& mesh) {
   }
 }
 
-Mesh mesh_of(vtkDataSet* data, const std::filesystem::path& path, const ReadListener& listener) {
+Mesh mesh_of(vtkDataSet* data, const std::vector<SplatMark>& marks, const std::filesystem::path& path,
+             const ReadListener& listener) {
   if (data->GetNumberOfPoints() > 0xFFFFFFFFLL) throw_unreadable(path, "found more than 4294967295 points");
   const vtkSmartPointer<vtkPolyData> surface = surface_of(data, path, listener.part(0.8, 0.9));
   const bool has_faces = surface->GetNumberOfPolys() > 0 || surface->GetNumberOfStrips() > 0;
   auto* points = vtkPointSet::SafeDownCast(data);
   Mesh mesh;
-  copy_points(has_faces || points == nullptr ? surface.Get() : points, path, listener, mesh.vertices);
-  if (!has_faces) return mesh;
+  copy_points(has_faces || points == nullptr ? surface.Get() : points, !has_faces && has_splats(marks), path,
+              listener, mesh.vertices);
+  if (!has_faces) {
+    take_marks(marks, mesh.vertices);
+    return mesh;
+  }
   copy_cells(surface->GetPolys(), false, mesh);
   copy_cells(surface->GetStrips(), true, mesh);
   return mesh;
@@ -364,5 +386,5 @@ void splatray_read_vtk(const std::vector<std::filesystem::path>& files,
     pieces.push_back(splatray::read_file(file, listener.part(begin, begin + share)));
   }
   const auto whole = splatray::joined(pieces, files[0], listener.part(0.7, 0.8));
-  mesh = splatray::mesh_of(whole, files[0], listener);
+  mesh = splatray::mesh_of(whole, splatray::marks_of(pieces, files[0], listener), files[0], listener);
 }
