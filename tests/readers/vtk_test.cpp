@@ -284,6 +284,24 @@ TEST(Vtk, LegacyFilesOfAllKindsAreRead) {
   EXPECT_NEAR(faces_of(axes).area, 22.0, 1e-9);
 }
 
+TEST(Vtk, LegacyFilesKeepAllArraysOfEachKind) {
+  const TempFolder folder;
+  std::string values;
+  for (const char* name : {"a", "b"})
+    values += std::string("SCALARS s") + name + " float 1\nLOOKUP_TABLE default\n0 1 2 3\nVECTORS v" + name +
+              " float\n1 0 0 1 0 0 1 0 0 1 0 0\nFIELD f" + name + " 1\nx" + name + " 1 4 int\n7 8 9 10\n";
+  const auto file = folder.write(
+      "p.vtk", LEGACY +
+                   "ASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\nPOINT_DATA "
+                   "4\n" +
+                   values + "COLOR_SCALARS colors 3\n1 0 0 1 0 0 1 0 0 1 0 0\n");
+  const Points points = read_input({file}, {}).objects[0].points;
+  for (const char* name : {"sa", "sb", "va_X", "vb_X", "xa", "xb"})
+    EXPECT_NE(find_column(points.columns, name), nullptr) << name;
+  ASSERT_FALSE(points.color.empty());
+  EXPECT_EQ(points.color[0], glm::vec3(1, 0, 0));
+}
+
 TEST(Vtk, WhatIsNotReadIsNamed) {
   const TempFolder folder;
   std::string text = VTP;

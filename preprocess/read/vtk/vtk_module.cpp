@@ -195,12 +195,24 @@ class GridReader : public vtkXMLUnstructuredGridReader {
 };
 vtkStandardNewMacro(GridReader);
 
+/// Makes it read all arrays of each kind, of which it takes the first alone otherwise.
+void read_all_of_kind(vtkDataSetReader& reader) {
+  reader.ReadAllScalarsOn();
+  reader.ReadAllVectorsOn();
+  reader.ReadAllNormalsOn();
+  reader.ReadAllTensorsOn();
+  reader.ReadAllColorScalarsOn();
+  reader.ReadAllTCoordsOn();
+  reader.ReadAllFieldsOn();
+}
+
 template <class Reader>
 vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const ReadListener& listener) {
   Run run(path, listener);
   const vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   if constexpr (std::is_same_v<Reader, GridReader>) reader->file_bytes = std::filesystem::file_size(path);
+  if constexpr (std::is_same_v<Reader, vtkDataSetReader>) read_all_of_kind(*reader);
   run.update(reader.Get());
   if constexpr (std::is_same_v<Reader, GridReader>)
     if (!reader->faces_fit)
