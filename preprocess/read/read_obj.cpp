@@ -4,12 +4,14 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "preprocess/base/quoted_list.h"
 #include "preprocess/read/bytes/byte_reader.h"
 #include "preprocess/read/scan/stored_colors.h"
 #include "preprocess/read/text/next_word.h"
@@ -44,6 +46,7 @@ struct ObjContent {
   std::vector<glm::vec3> color;  ///< as stored, beside `position` or shorter: the others have none
   std::vector<glm::vec3> normal;
   std::vector<std::array<FaceCorner, 3>> triangles;
+  std::set<std::string> skipped;  ///< what is there and not read
 };
 
 class ObjReader {
@@ -51,19 +54,10 @@ class ObjReader {
   ObjReader(const std::filesystem::path& path, const ReadListener& listener) : in_(path, &listener) {}
 
   ObjContent read() {
-    std::string_view line;
-    std::string keyword;
-    bool continued = false;
-    while (in_.line(line, MOST_OBJ_LINE_BYTES)) {
-      ++line_number_;
-      const bool continues = !line.empty() && line.back() == '\\';
-      line.remove_suffix(continues ? 1 : 0);
-      if (!continued) {
-        keyword = next_word(line);
-        face_.clear();
-      }
+    for (std::string_view line; next_statement(line);) {
+      const std::string_view keyword = next_word(line);
+      face_.clear();
       read_words(keyword, line);
-      continued = continues;
     }
     for (std::size_t kind = 0; kind < KINDS; ++kind) {
       if (highest_[kind] > counts_[kind]) {
@@ -85,11 +79,46 @@ class ObjReader {
          NAMES[kind]);
   }
 
+  bool next_line(std::string_view& line) {
+    if (!in_.line(line, MOST_OBJ_LINE_BYTES)) return false;
+    ++line_number_;
+    return true;
+  }
+
+  /// Takes away a backslash at the line's end, behind which the next one continues it; whether there was one.
+  static bool drop_backslash(std::string_view& line) {
+    const std::size_t last = line.find_last_not_of(" \t");
+    if (last == std::string_view::npos || line[last] != '\\') return false;
+    line = line.substr(0, last);
+    return true;
+  }
+
+  /// The next line with those that continue it. A comment ends with its own, as names of folders may end it.
+  bool next_statement(std::string_view& line) {
+    if (!next_line(line)) return false;
+    if (line.starts_with('#') || !drop_backslash(line)) return true;
+    statement_ = line;
+    for (bool continues = true; continues && next_line(line);) {
+      continues = drop_backslash(line);
+      (statement_ += ' ') += line;
+    }
+    line = statement_;
+    return true;
+  }
+
   void count(CornerPart kind) {
     if (++counts_[kind] > MOST_ELEMENTS) fail("found more than 4294967295 vertices or normals");
   }
 
-  void read_words(const std::string& keyword, std::string_view line) {
+  void note_skipped(std::string_view keyword) {
+    constexpr std::pair<std::string_view, const char*> NOT_READ[] = {
+        {"usemtl", "materials"}, {"l", "lines"}, {"curv", "curves"}, {"surf", "curved surfaces"}};
+    for (const auto& [word, what] : NOT_READ)
+      if (keyword == word) content_.skipped.insert(what);
+  }
+
+  void read_words(std::string_view keyword, std::string_view line) {
+    if (keyword.size() > 2 || keyword == "l") note_skipped(keyword);
     if (keyword == "v") {
       read_vertex(line);
     } else if (keyword == "vt") {
@@ -183,6 +212,7 @@ class ObjReader {
   ByteReader in_;
   ObjContent content_;
   std::vector<FaceCorner> face_;  ///< first and last corner of the face that is read
+  std::string statement_;         ///< of several lines
   std::uint64_t line_number_ = 0;
   std::array<std::int64_t, KINDS> counts_{};   ///< read so far
   std::array<std::int64_t, KINDS> highest_{};  ///< greatest index used of each; the file may have it later
@@ -232,6 +262,8 @@ class CornerJoiner {
 
 Mesh read_obj(const std::filesystem::path& path, const ReadListener& listener) {
   ObjContent content = ObjReader(path, listener).read();
+  if (!content.skipped.empty())
+    listener.note(path, "skipped " + quoted_list({content.skipped.begin(), content.skipped.end()}));
   Mesh mesh;
   Points& vertices = mesh.vertices;
   vertices.position = std::move(content.position);

@@ -71,6 +71,25 @@ TEST(Obj, AContinuedLineKeepsItsKeyword) {
   EXPECT_EQ(read_input({folder.write("o.obj", text)}, {}).objects[0].points.size(), 1U);
 }
 
+TEST(Obj, WhatIsNotReadIsNamed) {
+  const TempFolder folder;
+  const std::string text = "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n";
+  EXPECT_TRUE(
+      has_note(read_input({folder.write("a.obj", text)}, keeping_meshes()), "skipped 'lines', 'materials'"));
+}
+
+TEST(Obj, LinesGoOnBehindABackslash) {
+  const TempFolder folder;
+  const std::string text =
+      "# models in C:\\models\\\nv 0 0 \\\n0\nv \\ \r\n1 \\\r\n0 0\nv 0 1 0\nv 1 1 0\nvn 0 \\\n 0 1\nf 1//1 "
+      "2//1 \\\n"
+      "  4//1 3//1\n";
+  const Input input = read_input({folder.write("o.obj", text)}, keeping_meshes());
+  EXPECT_NEAR(input.objects[0].surface_area, 1.0, 1e-6);
+  EXPECT_NE(read_error(folder.write("e.obj", "v 0 0 \\\nx\n")).find("line 2: found a vertex of 2 numbers"),
+            std::string::npos);
+}
+
 TEST(Stl, FloatPositionsFarAwayAreNoted) {
   const TempFolder folder;
   EXPECT_TRUE(has_note(
