@@ -122,6 +122,44 @@ TEST(Stl, IsReadAndItsCountIsChecked) {
       "endfacet\nendsolid a\n");
 }
 
+TEST(Stl, TrianglesBehindItsCountAreRead) {
+  const TempFolder folder;
+  std::string bytes = binary_stl(1);
+  bytes += bytes.substr(84);
+  const std::uint32_t high = 0x3F800000;  // one, as float32
+  bytes.replace(bytes.size() - 50 + 12 + 8, 4, bytes_of(high));
+  const Input more = read_input({folder.write("a.stl", bytes)}, keeping_meshes());
+  EXPECT_EQ(more.objects[0].meshes[0].triangles.size(), 2U);
+  EXPECT_TRUE(has_note(more, "it says 1 triangles, and 1 more follow; all were read"));
+  const Input rest = read_input({folder.write("b.stl", binary_stl(1) + "more")}, keeping_meshes());
+  EXPECT_EQ(rest.objects[0].meshes[0].triangles.size(), 1U);
+  EXPECT_TRUE(has_note(rest, "the 4 bytes behind its 1 triangles are no triangles"));
+  bytes.back() = '\x80';
+  EXPECT_TRUE(has_note(read_input({folder.write("c.stl", bytes)}, keeping_meshes()), "may be colours"));
+}
+
+TEST(Stl, WordsStandOnAnyLines) {
+  const TempFolder folder;
+  const std::string facet =
+      "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 Vertex 0 1 0 endloop endfacet ";
+  const auto triangles = [&](const std::string& text) {
+    std::vector<glm::uvec3> read =
+        read_input({folder.write("a.stl", text)}, keeping_meshes()).objects[0].meshes[0].triangles;
+    return read.size();
+  };
+  EXPECT_EQ(triangles("solid one endfacet line " + facet + facet + "endsolid one endfacet line"), 2U);
+  EXPECT_EQ(triangles("solid vertex of a name\n" + facet + "\nendsolid vertex of a name\n"), 1U);
+  std::string long_line = "solid ";
+  for (int i = 0; i < 5000; ++i) long_line += facet;
+  EXPECT_EQ(triangles(long_line), 5000U);
+  EXPECT_NE(
+      read_error(folder.write("w.stl", "solid a\n" + facet + "\nfaces\n")).find("line 3: found 'faces'"),
+      std::string::npos);
+  EXPECT_NE(read_error(folder.write("n.stl", "solid " + std::string(200000, '1')))
+                .find("without the end of a facet"),
+            std::string::npos);
+}
+
 TEST(Obj, BrokenFilesAreErrorsAndNothingIsPrinted) {
   const TempFolder folder;
   ::testing::internal::CaptureStderr();
