@@ -60,10 +60,13 @@ class EsriGridReader {
     form_ = find_cell_form(rows);
     columns_ = whole("ncols");
     rows_ = whole("nrows");
-    size_ = {required({"cellsize", "dx"}), required({"cellsize", "dy"})};
+    size_ = {positive({"cellsize", "dx"}), positive({"cellsize", "dy"})};
     low_ = {required({"xllcorner", "xllcenter"}), required({"yllcorner", "yllcenter"})};
     if (keys_.count("xllcorner") > 0) low_.x += 0.5 * size_.x;
     if (keys_.count("yllcorner") > 0) low_.y += 0.5 * size_.y;
+    const glm::dvec2 high = low_ + size_ * glm::dvec2(columns_, rows_);
+    if (!std::isfinite(high.x + high.y))
+      throw_unreadable(path_, "found a raster grid that ends beyond all numbers, expected smaller cells");
   }
 
   double required(std::initializer_list<const char*> names) const {
@@ -72,6 +75,14 @@ class EsriGridReader {
         return found->second;
     throw_unreadable(
         path_, "found a raster grid without " + std::string(*names.begin()) + ", expected it in its head");
+  }
+
+  double positive(std::initializer_list<const char*> names) const {
+    const double number = required(names);
+    if (!(number > 0.0))
+      throw_unreadable(path_, "found a raster grid with cells of the size " + number_text(number) +
+                                  ", expected a positive one");
+    return number;
   }
 
   double whole(const char* name) const {

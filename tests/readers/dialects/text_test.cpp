@@ -164,6 +164,15 @@ TEST_F(TextDialects, RasterGridsArePointsInTheMiddlesOfTheirCells) {
   EXPECT_NE(error("e.asc", "ncols 3.5\nnrows 2\nxllcorner 1\nyllcorner 1\ncellsize 1\n1 2 3\n")
                 .find("found ncols 3.5"),
             std::string::npos);
+  for (const auto& [size, sentence] : {std::pair("0", "cells of the size 0, expected a positive one"),
+                                       {"-10", "cells of the size -10"},
+                                       {"inf", "without cellsize"},
+                                       {"1e308", "beyond all numbers"}})
+    EXPECT_NE(error("f.asc", std::string("ncols 3\nnrows 2\nxllcorner 1\nyllcorner 1\ncellsize ") + size +
+                                 "\n1 2 3\n4 5 6\n")
+                  .find(sentence),
+              std::string::npos)
+        << size;
 }
 
 }  // namespace
