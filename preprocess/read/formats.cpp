@@ -36,8 +36,8 @@ constexpr Format READ_FORMATS[] = {
      "VTK's points, faces, outer faces of volumes, pieces; normals, colours, radius, all arrays at points",
      without_options<read_vtk>, nullptr, nullptr},
     {".gltf .glb",
-     "node transforms, triangles, `POINTS`, `pbrMetallicRoughness`, transmission, ior, punctual lights, "
-     "cameras",
+     "node transforms, triangles, `POINTS` with attributes `_NAME`, `pbrMetallicRoughness`, transmission, "
+     "ior, punctual lights, cameras",
      nullptr, read_gltf, nullptr},
     {".las .laz",
      "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra "

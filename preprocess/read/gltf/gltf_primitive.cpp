@@ -11,6 +11,7 @@
 #include "preprocess/mesh/surface_maps.h"
 #include "preprocess/mesh/texture/texture.h"
 #include "preprocess/read/gltf/gltf_accessor.h"
+#include "preprocess/read/gltf/gltf_attributes.h"
 #include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
@@ -165,6 +166,7 @@ void select_points(Points& points, const std::vector<glm::uint>& indices) {
   select(points.position);
   select(points.normal);
   select(points.color);
+  for (Column& column : points.columns) std::visit(select, column.values);
 }
 
 std::vector<glm::uint> indices_of(const GltfFile& file, const tinygltf::Primitive& primitive,
@@ -206,6 +208,7 @@ std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primiti
   mesh.vertices.normal = read_attribute<glm::vec3>(file, primitive, "NORMAL", count);
   VertexColors colors = read_colors(file, primitive, count, notes);
   mesh.vertices.color = std::move(colors.color);
+  mesh.vertices.columns = read_added_attributes(file, primitive, count, notes);
   add_texture(file, primitive, materials, mesh);
   add_maps(file, primitive, materials, mesh);
   add_alpha(primitive, std::move(colors.alpha), materials, mesh);
@@ -231,8 +234,8 @@ std::optional<Mesh> read_primitive(const GltfFile& file, const tinygltf::Primiti
   }
   MapSamples maps(mesh);
   for (const glm::uint index : indices) maps.add(index, glm::vec3(0.0F));
-  mesh.vertices.columns = maps.take();
   select_points(mesh.vertices, indices);
+  for (Column& column : maps.take()) mesh.vertices.columns.push_back(std::move(column));
   return mesh;
 }
 

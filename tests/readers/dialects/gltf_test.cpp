@@ -27,7 +27,8 @@ class GltfDialects : public ::testing::Test {
             R"(]}],"materials":[)" + material +
             R"(],"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)" +
             R"({"bufferView":1,"componentType":5126,"count":4,"type":"VEC4"},)" +
-            R"({"bufferView":2,"componentType":5125,"count":6,"type":"SCALAR"}],)" +
+            R"({"bufferView":2,"componentType":5125,"count":6,"type":"SCALAR"},)" +
+            R"({"bufferView":1,"componentType":5126,"count":4,"type":"SCALAR"}],)" +
             R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":64},)" +
             R"({"buffer":0,"byteOffset":112,"byteLength":24}],"buffers":[{"uri":")" + uri +
             R"(","byteLength":136}]})");
@@ -52,6 +53,23 @@ TEST_F(GltfDialects, CapturesOfGaussiansAreRefusedAsThoseOfPly) {
                     "property float z\nproperty float F_DC_0\nend_header\n0 0 0 0\n");
   for (const auto& file : {gltf, used, ply})
     EXPECT_NE(read_error(file).find("found a capture of 3D Gaussians"), std::string::npos);
+}
+
+TEST_F(GltfDialects, AttributesOfApplicationsAreKeptAtPointsOrNamed) {
+  const std::string added = R"(,"_INTENSITY":3,"_HEAT":3,"_FLOW":0)";
+  const std::vector<float> values = {0.25F, 0.5F, 0.75F, 1000.0F};
+  const Input points =
+      read_input({write("a.gltf", added + R"(},"indices":2,"extras":{"of":1)", "{}", values)}, {});
+  for (const char* name : {"intensity", "HEAT"}) {
+    const Column* column = find_column(points.objects.at(0).points.columns, name);
+    ASSERT_NE(column, nullptr) << name;
+    ASSERT_EQ(column->size(), 6U) << "one for each index";
+    EXPECT_EQ(column->number(4), 0.75) << name;
+    EXPECT_EQ(column->number(5), 1000.0) << name;
+  }
+  EXPECT_TRUE(has_note(points, "skipped attributes '_FLOW'"));
+  EXPECT_TRUE(has_note(read_input({write("b.gltf", added, "{}", values, true)}, keeping_meshes()),
+                       "skipped attributes '_FLOW', '_HEAT', '_INTENSITY'"));
 }
 
 TEST_F(GltfDialects, OnlyPercentSignsAreDecodedInNames) {
