@@ -156,10 +156,13 @@ Input read_file(const std::filesystem::path& path, const ReadOptions& options, c
   return read_geometry(path, options, listener);
 }
 
-[[noreturn]] void refuse_no_points(const std::vector<InputFile>& files, const ScanCounts& counts) {
+/// `notes`: what was said of the files, of which the first says what is damaged.
+[[noreturn]] void refuse_no_points(const std::vector<InputFile>& files, const ScanCounts& counts,
+                                   const std::vector<std::string>& notes) {
   std::string found = join(files) + ": " + no_points_found(counts);
   found += fate_of(counts).empty() ? " and no triangles" : "; expected at least one other";
   if (counts.withheld + counts.noise > 0) found += " (--keep-withheld keeps those withheld or of noise)";
+  if (counts.missing > 0 && !notes.empty()) found += "; " + one_line(notes.front());
   throw Error(ExitCode::input_unreadable, found);
 }
 
@@ -252,7 +255,7 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   finish_objects(input, options);
   drop_empty_objects(input);
   if (input.objects.empty()) {
-    refuse_no_points(files, input.scan_counts);
+    refuse_no_points(files, input.scan_counts, input.notes);
   }
   note_many_dielectrics(input);
   aim_camera(input);

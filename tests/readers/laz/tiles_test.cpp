@@ -172,6 +172,13 @@ TEST_F(Tiles, ThatAreMissingAreANoteOrRefused) {
   }
 }
 
+TEST_F(Tiles, ThatAreAllDamagedAreNamed) {
+  for (const char* name : {"ept-data/0-0-0-0.laz", "ept-data/2-0-3-2.laz"}) write(name, "damaged");
+  const std::string error = read_error(ept());
+  EXPECT_NE(error.find("80 missing or damaged"), std::string::npos) << error;
+  EXPECT_NE(error.find("0-0-0-0.laz: "), std::string::npos) << error;
+}
+
 TEST_F(Tiles, OfCountsThatDifferAreANote) {
   write("ept-hierarchy/0-0-0-0.json", R"({"0-0-0-0": 41})");
   EXPECT_EQ(read(ept()).points.size(), 40U);
