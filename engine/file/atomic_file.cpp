@@ -141,7 +141,8 @@ AtomicFile::AtomicFile(const fs::path& target, Links links) {
   if (error) refuse(target, error.message());
   if (target.filename().empty() || fs::is_directory(target_, error))
     refuse(target, "it is a folder, expected a file name");
-  if (fs::exists(target_, error) && !fs::is_regular_file(target_, error))
+  const fs::file_status status = fs::symlink_status(target_, error);  // a link's, where it leads to no file
+  if (fs::exists(status) && !fs::is_regular_file(status))
     refuse(target, "it exists and is not a regular file");
   remove_left_overs(target_.parent_path());
   do {

@@ -20,7 +20,7 @@ class AtomicFile {
  public:
   /// Creates the empty temporary file in the target's folder, under a name that no other writer has; a process's first one there
   /// removes those of dead writers. Throws Error (failed) when the folder does not exist or cannot be written, or when the target
-  /// exists and is not a regular file.
+  /// exists and is not a regular file, as a link to no file is not.
   explicit AtomicFile(const std::filesystem::path& target, Links links = Links::follow);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;

@@ -52,6 +52,14 @@ TEST_F(ReplacedInputs, ByPreprocess) {
   fs::create_hard_link(grid, file("hard.ply"));
   expect_kept({PREPROCESS, grid, "-o", file("link.ply")});
   expect_kept({PREPROCESS, grid, "-o", file("hard.ply")});
+  fs::create_symlink("nowhere.ply", file("dangling.ply"));
+  expect_refused(
+      [&] {
+        return run_program({PREPROCESS, grid, "-o", file("dangling.ply")});
+      },
+      1, "it exists and is not a regular file");
+  EXPECT_TRUE(fs::is_symlink(file("dangling.ply")));
+  fs::remove(file("dangling.ply"));
   const std::string other = write("other.ply", grid_ply(true, 0.1));
   expect_kept({PREPROCESS, grid, "--change-from", other, "-o", other});
   expect_kept({PREPROCESS, grid, "-o", file("out.soct"), "--stats-json", grid});

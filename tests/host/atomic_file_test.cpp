@@ -78,6 +78,22 @@ TEST_F(AtomicFileTest, TemporaryNamesAreNew) {
   EXPECT_EQ(names.size(), 100U);
 }
 
+TEST_F(AtomicFileTest, LinksToNoFileAreKept) {
+  fs::create_symlink("nowhere", folder / "a");
+  fs::create_symlink("a", folder / "b");
+  for (const char* name : {"a", "b"}) {
+    try {
+      require_writable(folder / name);
+      ADD_FAILURE() << name << " would be replaced";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::failed);
+      EXPECT_NE(std::string(error.what()).find("it exists and is not a regular file"), std::string::npos);
+    }
+    EXPECT_TRUE(fs::is_symlink(folder / name));
+  }
+  EXPECT_EQ(files(), 2);
+}
+
 TEST_F(AtomicFileTest, FilesThatNobodyNamedReplaceNoLink) {
   std::ofstream(folder / "victim") << "victim";
   fs::create_symlink("victim", folder / "a");
