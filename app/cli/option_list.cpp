@@ -145,9 +145,29 @@ std::string OptionList::missing_word() const {
 
 bool OptionList::parse(int argc, char** argv) { return parse(Words(argv + std::min(argc, 1), argv + argc)); }
 
+Words OptionList::with_empty_values(const Words& words) const {
+  const auto takes_value = [this](const std::string& name) {
+    return std::any_of(page_.entries.begin(), page_.entries.end(), [&name](const OptionEntry& one) {
+      const Words names = one.names();
+      return !one.value.empty() && std::find(names.begin(), names.end(), name) != names.end();
+    });
+  };
+  Words all;
+  bool are_options = true;
+  for (const std::string& word : words) {
+    are_options = are_options && word != "--";
+    const std::string name = word.substr(0, word.find('='));
+    const bool is_empty = are_options && word == name + '=' && name.starts_with("--") && takes_value(name);
+    all.push_back(is_empty ? name : word);
+    if (is_empty) all.emplace_back();
+  }
+  return all;
+}
+
 bool OptionList::parse(const Words& words) {
   try {
-    parser_->parse(Words(words.rbegin(), words.rend()));
+    const Words all = with_empty_values(words);
+    parser_->parse(Words(all.rbegin(), all.rend()));
   } catch (const CLI::Success& success) {
     parser_->exit(success);
     return false;

@@ -68,6 +68,8 @@ class OptionList {
   struct Parser;
 
   OptionEntry& entry(const std::string& name);
+  /// The words, "--name=" of an option of a value as two of them: the library would take the next word for its value.
+  [[nodiscard]] Words with_empty_values(const Words& words) const;
   /// The sentence about the first word that no option takes; empty where there is none.
   [[nodiscard]] std::string unknown_word() const;
   /// The sentence about the first word that is required and was not given; empty where there is none.

@@ -107,6 +107,17 @@ TEST_F(CliOptions, NegativeVectorsParse) {
       << "straight down, up chosen across";
 }
 
+TEST_F(CliOptions, EmptyValuesAreEmpty) {
+  const std::string grid = write("grid.ply", grid_ply(true));
+  const std::string sheet = "--sheet=plan:scale=50,dpi=20";
+  const ChildResult named = run_program(
+      {RENDER, grid, "--device=cpu", "--samples=1", "--quiet", sheet, "--title=", "-o", file("a.svg")});
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_TRUE(std::filesystem::exists(file("a.svg"))) << "-o is no title";
+  expect_refused([&] { return render({"--eye=", grid}); }, 2, "--eye");
+  expect_refused([&] { return preprocess({"--columns=", "--output=", grid}); }, 2, "found output ''");
+}
+
 TEST_F(CliOptions, HelpAndVersion) {
   for (const char* option : {"--help", "--version"}) {
     const ChildResult result = run_program({RENDER, option});
