@@ -108,13 +108,13 @@ void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) std::fprintf(stderr, "splatray-preprocess: note: %s\n", note.c_str());
 }
 
-/// Writes the scene, or its points and what was left out.
+/// Writes the scene, or its points and what was left out, and says what the format does not hold.
 void write(const Scene& scene, const LeftOut& left_out, const std::filesystem::path& path,
-           const Progress& progress) {
-  if (is_point_output(path))
-    write_points(make_point_table(scene, left_out), path, progress);
-  else
-    write_scene(scene, path, progress);
+           const Progress& progress, ProgressLine& line) {
+  if (!is_point_output(path)) return write_scene(scene, path, progress);
+  write_points(make_point_table(scene, left_out), path, progress);
+  line.clear();
+  if (const std::string lost = lost_by_format(scene, path); !lost.empty()) print_notes({lost});
 }
 
 /// The scene of a .soct alone, or of the inputs.
@@ -158,7 +158,7 @@ void make(const Options& options, const Progress& progress, ProgressLine& line) 
   Scene scene = build_scene(std::move(input), source.params, source.threads, stats, progress);
   const LeftOut kept = left_out ? std::move(*left_out).take(scene) : LeftOut{};
   if (!options.change_from.empty()) compare(scene, options, progress, line);
-  write(scene, kept, output.path, progress);
+  write(scene, kept, output.path, progress, line);
   line.clear();
   print_notes(stats.notes);
   if (!output.stats_json.empty()) write_text_file(build_stats_json(stats) + '\n', output.stats_json);
@@ -170,7 +170,7 @@ void convert(const Options& options, const Progress& progress, ProgressLine& lin
   BuildStats stats;
   Scene scene = load(options.request.source, stats, progress);
   if (!options.change_from.empty()) compare(scene, options, progress, line);
-  write(scene, {}, options.request.output.path, progress);
+  write(scene, {}, options.request.output.path, progress, line);
 }
 
 /// What of a request levels follow: they hold points as they are.

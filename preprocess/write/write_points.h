@@ -1,6 +1,7 @@
 /// Files of points: a scene's splats with all their attributes, for other programs and to be read again.
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "engine/base/progress.h"
 #include "preprocess/write/point_table.h"
@@ -10,6 +11,9 @@ namespace splatray {
 /// Whether the extension is one of those that write_points writes: .ply, .las, .csv or .vtp. Throws Error (usage) for .laz and
 /// other formats of points, which are only read.
 [[nodiscard]] bool is_point_output(const std::filesystem::path& path);
+
+/// What is not in a file of such points though the scene has it, one sentence; empty where that is nothing.
+[[nodiscard]] std::string lost_by_format(const Scene& scene, const std::filesystem::path& path);
 
 /// Writes the points in the format of the extension, whole or not at all:
 /// - .ply, binary: float64 positions, all properties. Read again, splats of one object are the same bits: normal fields and clip

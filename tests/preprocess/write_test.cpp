@@ -305,6 +305,17 @@ TEST(WritePoints, WhatLasCannotHoldIsRefused) {
   EXPECT_EQ(read_input({written(scene, folder, "a.ply", far)}, {}).objects.at(0).points.size(), 101U);
 }
 
+TEST(WritePoints, WhatAFormatHasNoPlaceForIsNamed) {
+  Scene scene = built(corner_scan());
+  for (const char* name : {"a.ply", "a.vtp"}) EXPECT_EQ(lost_by_format(scene, name), "") << name;
+  EXPECT_EQ(lost_by_format(scene, "a.las"),
+            "a.las: its format does not hold the places of scanners; .ply and .vtp do");
+  scene.up = glm::dvec3(0.0, 1.0, 0.0);
+  EXPECT_EQ(lost_by_format(scene, "a.csv"),
+            "a.csv: its format does not hold the up direction 0,1,0 (it is read with 0,0,1), the coordinate "
+            "system, the places of scanners; .ply and .vtp do");
+}
+
 TEST(WritePoints, CanBeStopped) {
   const Scene scene = built(test::input_of(test::even_sphere(100)));
   const TempFolder folder;
