@@ -320,6 +320,35 @@ TEST(Vtk, WhatIsNotReadIsNamed) {
   EXPECT_TRUE(read_input({folder.write("q.vtp", VTP)}, {}).notes.empty());
 }
 
+/// VTK's reader (9.1) wrote behind the end of arrays of texts, and read through null pointers to say that an array is short.
+TEST(Vtk, ArraysOfMoreOrFewerValuesThanTheySayAreNoFaults) {
+  const TempFolder folder;
+  std::string texts;
+  for (int i = 0; i < 3000; ++i) texts += "65 0 ";
+  const auto text_array = [](const std::string& values, const std::string& more) {
+    return "<Array type=\"String\" Name=\"label\" format=\"ascii\"" + more + ">" + values + "</Array>";
+  };
+  const auto with = [&](const std::string& before, const std::string& more) {
+    std::string text = VTP;
+    return folder.write("a.vtp", text.insert(text.find(before), more));
+  };
+  const auto field = [&](const std::string& values, const std::string& count) {
+    return with("<Piece",
+                "<FieldData>" + text_array(values, " NumberOfTuples=\"" + count + "\"") + "</FieldData>");
+  };
+  EXPECT_EQ(read_input({field(texts, "1")}, {}).objects[0].points.size(), 2U);
+  EXPECT_NE(read_error(field("65 0", "9")).find("fewer values of 'label'"), std::string::npos);
+  EXPECT_EQ(read_input({with("</PointData>", text_array(texts, ""))}, {}).objects[0].points.size(), 2U);
+  EXPECT_NE(read_error(with("</PointData>", text_array("65 0", ""))).find("fewer values of 'label'"),
+            std::string::npos);
+  EXPECT_NE(read_error(with("</PointData>", array("Float32", "short", "1"))).find("fewer values of 'short'"),
+            std::string::npos);
+  std::string cells = vtu(3, "0 0 0 1 0 0 0 1 0", 1, "0 1 2", "3", "5");
+  cells.replace(cells.find("<PointData></PointData>"), 23,
+                "<CellData>" + array("Float32", "short", "") + "</CellData>");
+  EXPECT_NE(read_error(folder.write("c.vtu", cells)).find("fewer values of 'short'"), std::string::npos);
+}
+
 TEST(Vtk, LegacyFilesThatLieAreRefused) {
   const TempFolder folder;
   const auto changed = [&](const std::string& from, const std::string& to) {

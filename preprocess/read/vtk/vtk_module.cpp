@@ -16,9 +16,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +29,7 @@
 #include "preprocess/read/vtk/vtk_cells_check.h"
 #include "preprocess/read/vtk/vtk_colors.h"
 #include "preprocess/read/vtk/vtk_field_data.h"
+#include "preprocess/read/vtk/vtk_xml_readers.h"
 
 namespace splatray {
 namespace {
@@ -141,60 +139,6 @@ void drop_unfit_arrays(vtkFieldData* attributes, vtkIdType count) {
     if (attributes->GetAbstractArray(i)->GetNumberOfTuples() != count) attributes->RemoveArray(i);
 }
 
-/// Numbers of polyhedra for a byte of the file: real ones compress less.
-constexpr std::uint64_t MOST_FACE_NUMBERS = 16;
-
-/// VTK's reader of .vtu, which (9.1) follows the lists of polyhedra's faces wherever they lead: they are looked at before.
-class GridReader : public vtkXMLUnstructuredGridReader {
- public:
-  static GridReader* New();
-  std::uint64_t file_bytes = 0;
-  bool faces_fit = true;
-
- protected:
-  int ReadPieceData() override {
-    faces_fit = faces_fit && check_faces();
-    return faces_fit ? vtkXMLUnstructuredGridReader::ReadPieceData() : 0;
-  }
-
- private:
-  /// The first `count` of an array; fewer where it has fewer.
-  std::vector<vtkIdType> values_of(vtkXMLDataElement* element, vtkIdType count) {
-    const auto made = vtkSmartPointer<vtkAbstractArray>::Take(CreateArray(element));
-    auto* array = vtkDataArray::SafeDownCast(made);
-    if (array == nullptr || array->GetNumberOfComponents() != 1) return {};
-    array->SetNumberOfTuples(count);
-    if (ReadArrayValues(element, 0, array, 0, count) == 0) return {};
-    std::vector<vtkIdType> values;
-    for (vtkIdType i = 0; i < count; ++i) values.push_back(static_cast<vtkIdType>(array->GetTuple1(i)));
-    return values;
-  }
-
-  /// Whether each polyhedron's list ends where its offset says: the number of faces, then each face's points after their number.
-  bool check_faces() {
-    vtkXMLDataElement* cells = CellElements[Piece];
-    vtkXMLDataElement* lists = cells == nullptr ? nullptr : FindDataArrayWithName(cells, "faces");
-    vtkXMLDataElement* offsets = cells == nullptr ? nullptr : FindDataArrayWithName(cells, "faceoffsets");
-    if (lists == nullptr || offsets == nullptr) return true;
-    const std::vector<vtkIdType> ends = values_of(offsets, NumberOfCells[Piece]);
-    const vtkIdType total = ends.empty() ? 0 : *std::max_element(ends.begin(), ends.end());
-    if (total > 0 && static_cast<std::uint64_t>(total) > MOST_FACE_NUMBERS * file_bytes) return false;
-    const std::vector<vtkIdType> numbers = values_of(lists, std::max<vtkIdType>(total, 0));
-    vtkIdType at = 0;
-    for (const vtkIdType end : ends) {
-      if (end < 0) continue;  // no polyhedron
-      if (end <= at || static_cast<std::size_t>(end) > numbers.size()) return false;
-      for (vtkIdType faces = numbers[at++]; faces > 0; --faces) {
-        if (at >= end || numbers[at] < 0 || numbers[at] >= end - at) return false;
-        at += numbers[at] + 1;
-      }
-      if (at != end) return false;
-    }
-    return true;
-  }
-};
-vtkStandardNewMacro(GridReader);
-
 /// Makes it read all arrays of each kind, of which it takes the first alone otherwise.
 void read_all_of_kind(vtkDataSetReader& reader) {
   reader.ReadAllScalarsOn();
@@ -217,6 +161,9 @@ vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const Rea
   if constexpr (std::is_same_v<Reader, GridReader>)
     if (!reader->faces_fit)
       throw_unreadable(path, "found lists of polyhedra's faces that end elsewhere than their offsets say");
+  if constexpr (!std::is_same_v<Reader, vtkDataSetReader>)
+    if (!reader->short_array.empty())
+      throw_unreadable(path, "found fewer values of '" + reader->short_array + "' than there should be");
   vtkSmartPointer<vtkDataSet> data = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (data == nullptr) throw_unreadable(path, "VTK found no points in it");
   check_vtk_cells(data, path);
@@ -228,7 +175,7 @@ vtkSmartPointer<vtkDataSet> read_by(const std::filesystem::path& path, const Rea
 
 vtkSmartPointer<vtkDataSet> read_file(const std::filesystem::path& path, const ReadListener& listener) {
   const std::string extension = lower_extension(path);
-  if (extension == ".vtp") return read_by<vtkXMLPolyDataReader>(path, listener);
+  if (extension == ".vtp") return read_by<SurfaceReader>(path, listener);
   if (extension == ".vtu") return read_by<GridReader>(path, listener);
   return read_by<vtkDataSetReader>(path, listener);
 }
