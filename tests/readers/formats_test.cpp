@@ -75,5 +75,16 @@ TEST(Formats, RefusalsListTheTable) {
   EXPECT_EQ(find_format("https://host/a.laz?b=c.ply#d.obj"), find_format("a.LAZ"));
 }
 
+TEST(Formats, OfVtksHdfItIsSaidWhatToDoInstead) {
+  const TempFolder folder;
+  for (const char* name : {"a.vtkhdf", "A.VTKHDF"}) {
+    const std::string error = read_error(folder.write(name, "\x89HDF\r\n\x1a\n"));
+    EXPECT_NE(error.find("HDF format, which is not read, expected the same data as .vtp or .vtu"),
+              std::string::npos)
+        << error;
+  }
+  EXPECT_NE(read_error(folder.path() / "missing.vtkhdf").find("no such file"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace splatray

@@ -320,6 +320,37 @@ TEST(Vtk, WhatIsNotReadIsNamed) {
   EXPECT_TRUE(read_input({folder.write("q.vtp", VTP)}, {}).notes.empty());
 }
 
+TEST(Vtk, AsManyArraysAreKeptAsScenesHaveAttributes) {
+  const TempFolder folder;
+  const auto read = [&](std::size_t count) {
+    std::string text = VTP, arrays;
+    for (std::size_t i = 0; i < count; ++i) arrays += array("Float32", "a" + std::to_string(i), "1 2");
+    return read_input({folder.write("a.vtp", text.insert(text.find("</PointData>"), arrays))}, {});
+  };
+  const Input all = read(COLUMNS_MOST), more = read(COLUMNS_MOST + 1);
+  EXPECT_EQ(all.objects[0].points.columns.size(), COLUMNS_MOST);
+  EXPECT_TRUE(all.notes.empty());
+  EXPECT_EQ(more.objects[0].points.columns.size(), COLUMNS_MOST);
+  EXPECT_TRUE(has_note(more, "1 arrays are left out"));
+}
+
+TEST(Vtk, WhatAPieceSaysOfAllItsPointsIsNamed) {
+  const TempFolder folder;
+  std::string piece = VTP;
+  piece.insert(piece.find("<Piece"),
+               "<FieldData><Array type=\"String\" Name=\"crs\" NumberOfTuples=\"1\" format=\"ascii\">65 "
+               "0</Array></FieldData>");
+  folder.write("a.vtp", piece);
+  const auto list = [&](const std::string& pieces) {
+    return read_input({folder.write("p.pvtp", "<VTKFile type=\"PPolyData\" version=\"1.0\"><PPolyData>" +
+                                                  pieces + "</PPolyData></VTKFile>")},
+                      {});
+  };
+  const std::string one = "<Piece Source=\"a.vtp\"/>";
+  EXPECT_EQ(list(one).crs, "A");
+  EXPECT_TRUE(has_note(list(one + one), "as it is a piece"));
+}
+
 /// VTK's reader (9.1) wrote behind the end of arrays of texts, and read through null pointers to say that an array is short.
 TEST(Vtk, ArraysOfMoreOrFewerValuesThanTheySayAreNoFaults) {
   const TempFolder folder;
@@ -402,17 +433,6 @@ TEST(Vtk, ListsOfCellsHoldWholeNumbers) {
     static_cast<void>(read_error(with_vertex(kind, cells, std::string("\0", 1))));
     static_cast<void>(read_error(with_vertex(kind, cells, "")));
   }
-}
-
-TEST(Vtk, OfHdfItIsSaidWhatToDoInstead) {
-  const TempFolder folder;
-  for (const char* name : {"a.vtkhdf", "A.VTKHDF"}) {
-    const std::string error = read_error(folder.write(name, "\x89HDF\r\n\x1a\n"));
-    EXPECT_NE(error.find("HDF format, which is not read, expected the same data as .vtp or .vtu"),
-              std::string::npos)
-        << error;
-  }
-  EXPECT_NE(read_error(folder.path() / "missing.vtkhdf").find("no such file"), std::string::npos);
 }
 
 }  // namespace
