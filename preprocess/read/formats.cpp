@@ -40,8 +40,8 @@ constexpr Format READ_FORMATS[] = {
      "ior, punctual lights, cameras",
      nullptr, read_gltf, nullptr},
     {".las .laz",
-     "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, attributes, extra "
-     "bytes",
+     "LAS 1.0 to 1.5 with point formats 0 to 10, compressed by LASzip, COPC; colours, normals, "
+     "radius, attributes, extra bytes",
      nullptr, nullptr, read_las, copc_levels},
     {"ept.json", "Entwine point tiles of LAZ or of records, packed by Zstandard or not, as files beside it",
      nullptr, nullptr, read_ept, ept_levels},

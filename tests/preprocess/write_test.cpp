@@ -215,6 +215,8 @@ TEST(WriteLas, OurReaderFindsAllOfIt) {
     const Splat splat = unpack_splat(scene.data_pool[i]);
     ASSERT_EQ(find_column(points.columns, "NormalX")->number(i), static_cast<float>(splat.normal.x));
     ASSERT_EQ(find_column(points.columns, "NormalZ")->number(i), static_cast<float>(splat.normal.z));
+    ASSERT_EQ(points.normal.at(i), glm::vec3(splat.normal));
+    ASSERT_EQ(points.radius.at(i), find_column(points.columns, "radius")->number(i));
     ASSERT_EQ(find_column(points.columns, "my_own__number")->number(i), 0.1F);
     ASSERT_EQ(pack_color(points.color[i]), scene.color_pool[i]);
     for (const std::string_view name : {COLUMN_CLASS, COLUMN_TIME})

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,24 @@ inline std::string las_vlr(const std::string& user, std::uint16_t id, const std:
   padded.resize(16, '\0');
   return bytes_of<std::uint16_t>(0) + padded + bytes_of(id) +
          bytes_of(static_cast<std::uint16_t>(content.size())) + std::string(32, '\0') + content;
+}
+
+/// Where the points begin by a file's header.
+inline std::size_t las_points_offset(const std::string& bytes) {
+  std::uint32_t offset = 0;
+  std::memcpy(&offset, bytes.data() + 96, sizeof offset);
+  return offset;
+}
+
+/// A descriptor of extra bytes.
+inline std::string las_descriptor(unsigned type, const std::string& name, unsigned options = 0,
+                                  double scale = 0.0, double offset = 0.0) {
+  std::string text = std::string(2, '\0') + static_cast<char>(type) + static_cast<char>(options) + name;
+  text.resize(112, '\0');
+  for (int i = 0; i < 3; ++i) text += bytes_of(scale);
+  for (int i = 0; i < 3; ++i) text += bytes_of(offset);
+  text.resize(192, '\0');
+  return text;
 }
 
 inline std::string LasFile::record(const LasRecord& point) const {

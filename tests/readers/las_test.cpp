@@ -216,21 +216,10 @@ TEST(Las, HeadersThatAreNoneAreRefused) {
   EXPECT_NE(error_of(bytes).find("without LASzip's record"), std::string::npos);
 }
 
-/// A descriptor of extra bytes.
-std::string extra_bytes(unsigned type, const std::string& name, unsigned options = 0, double scale = 0.0,
-                        double offset = 0.0) {
-  std::string text = std::string(2, '\0') + static_cast<char>(type) + static_cast<char>(options) + name;
-  text.resize(112, '\0');
-  for (int i = 0; i < 3; ++i) text += bytes_of(scale);
-  for (int i = 0; i < 3; ++i) text += bytes_of(offset);
-  text.resize(192, '\0');
-  return text;
-}
-
 TEST(Las, ExtraBytesOfAllRecordsWhenAskedFor) {
   LasFile file = three_points();
-  file.vlrs = {las_vlr("LASF_Spec", 4, extra_bytes(4, "height", 24, 0.5, 3.0) + extra_bytes(0, "", 2)),
-               las_vlr("LASF_Spec", 4, extra_bytes(29, "normal") + extra_bytes(1, "beyond"))};
+  file.vlrs = {las_vlr("LASF_Spec", 4, las_descriptor(4, "height", 24, 0.5, 3.0) + las_descriptor(0, "", 2)),
+               las_vlr("LASF_Spec", 4, las_descriptor(29, "normal") + las_descriptor(1, "beyond"))};
   file.extra_bytes = 16;
   for (LasRecord& point : file.records)
     point.extra = bytes_of<std::int16_t>(-4) + "??" + bytes_of(0.25F) + bytes_of(0.5F) + bytes_of(1.0F);
@@ -316,7 +305,7 @@ TEST(Las, ScaledHeightsLeaveTheirSystem) {
 TEST(Las, EveryPrefixIsReadOrRefused) {
   const TempFolder folder;
   LasFile file = three_points();
-  file.vlrs = {las_vlr("LASF_Spec", 4, extra_bytes(4, "height"))};
+  file.vlrs = {las_vlr("LASF_Spec", 4, las_descriptor(4, "height"))};
   read_every_prefix(folder, "a.las", file.bytes());
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/release.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
@@ -56,27 +57,34 @@ bool is_zero(const Column& column) {
 
 }  // namespace
 
-LasColumns::LasColumns(const LasHeader& header, std::vector<LasExtraBytes> extra, const ScanOptions& options)
-    : header_(header), fields_(las_fields(header.point_format)), keep_all_(options.keep_withheld) {
+LasColumns::LasColumns(const LasHeader& header, LasExtras extra, const ScanOptions& options)
+    : header_(header),
+      fields_(las_fields(header.point_format)),
+      extra_{{}, std::move(extra.normal), std::move(extra.radius)},
+      keep_all_(options.keep_withheld) {
   points_.columns = {{std::string(COLUMN_INTENSITY), std::vector<std::uint16_t>{}},
                      {std::string(COLUMN_CLASS), std::vector<std::uint8_t>{}},
                      {std::string(COLUMN_RETURN), std::vector<std::uint8_t>{}},
                      {std::string(COLUMN_RETURNS), std::vector<std::uint8_t>{}},
                      {std::string(COLUMN_SOURCE), std::vector<std::uint16_t>{}},
                      {std::string(COLUMN_TIME), std::vector<double>{}}};
-  for (LasExtraBytes& one : extra) {
+  for (LasExtraBytes& one : extra.columns) {
     if (find_column(points_.columns, one.name) != nullptr) continue;
     points_.columns.push_back(
         {one.name, one.fits_float() ? Column::Values(std::vector<float>{}) : std::vector<double>{}});
-    extra_.push_back(std::move(one));
+    extra_.columns.push_back(std::move(one));
   }
 }
 
 std::vector<bool> LasColumns::used_bytes() const {
   std::vector<bool> used(header_.record_bytes, false);
   std::fill_n(used.begin(), fields_.bytes, true);
-  for (const LasExtraBytes& one : extra_)
+  const auto use = [&used](const LasExtraBytes& one) {
     std::fill_n(used.begin() + static_cast<std::ptrdiff_t>(one.at), one.bytes(), true);
+  };
+  std::for_each(extra_.columns.begin(), extra_.columns.end(), use);
+  if (extra_.normal) std::for_each(extra_.normal->begin(), extra_.normal->end(), use);
+  if (extra_.radius) use(*extra_.radius);
   return used;
 }
 
@@ -84,6 +92,8 @@ template <class F>
 void LasColumns::for_each_array(F f) {
   f(points_.position);
   if (fields_.color != 0) f(points_.stored_color);
+  if (extra_.normal) f(points_.normal);
+  if (extra_.radius) f(points_.radius);
   for (std::size_t i = 0; i < points_.columns.size(); ++i)
     if (i != TIME_COLUMN || fields_.time != 0) std::visit(f, points_.columns[i].values);
 }
@@ -134,20 +144,35 @@ LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t co
     source[at] = static_cast<std::uint16_t>(marks.source);
     if (fields_.time != 0) time[at] = load<double>(record + fields_.time);
     if (fields_.color != 0) points_.stored_color[at] = load<glm::u16vec3>(record + fields_.color);
-    for (std::size_t e = 0; e < extra_.size(); ++e)
-      std::visit(
-          [&](auto& list) {
-            list[at] = static_cast<std::remove_reference_t<decltype(list[0])>>(extra_[e].value(record));
-          },
-          points_.columns[FIXED_COLUMNS + e].values);
+    fill_extra(record, at);
     ++at;
   }
   filled.kept = at - begin;
   return filled;
 }
 
+void LasColumns::fill_extra(const unsigned char* record, std::size_t at) {
+  for (std::size_t e = 0; e < extra_.columns.size(); ++e)
+    std::visit(
+        [&](auto& list) {
+          list[at] = static_cast<std::remove_reference_t<decltype(list[0])>>(extra_.columns[e].value(record));
+        },
+        points_.columns[FIXED_COLUMNS + e].values);
+  if (extra_.normal)
+    for (int axis = 0; axis < 3; ++axis)
+      points_.normal[at][axis] =
+          static_cast<float>((*extra_.normal)[static_cast<std::size_t>(axis)].value(record));
+  if (extra_.radius) points_.radius[at] = static_cast<float>(extra_.radius->value(record));
+}
+
 Points LasColumns::take() {
   std::erase_if(points_.columns, is_zero);
+  const auto drop_zeros = [](auto& list) {
+    if (std::all_of(list.begin(), list.end(), [](const auto& value) { return value == decltype(value){}; }))
+      release(list);
+  };
+  drop_zeros(points_.normal);
+  drop_zeros(points_.radius);
   return std::move(points_);
 }
 

@@ -10,7 +10,7 @@
 namespace splatray {
 
 /// Collects what records hold: positions, colours, intensity, class, returns, source and time, and the extra bytes that
-/// are asked for. Points that are withheld or of the classes of noise (7, 18) are left out unless options keep them.
+/// are chosen. Points that are withheld or of the classes of noise (7, 18) are left out unless options keep them.
 class LasColumns {
  public:
   /// What became of some records.
@@ -20,8 +20,8 @@ class LasColumns {
     std::uint64_t noise = 0;
   };
 
-  /// `extra` gives columns of its names; a name that is there already is left out.
-  LasColumns(const LasHeader& header, std::vector<LasExtraBytes> extra, const ScanOptions& options);
+  /// Columns of `extra` whose name is there already are left out.
+  LasColumns(const LasHeader& header, LasExtras extra, const ScanOptions& options);
 
   /// Which bytes of a record are of use.
   [[nodiscard]] std::vector<bool> used_bytes() const;
@@ -41,16 +41,17 @@ class LasColumns {
   /// Those that are there.
   [[nodiscard]] const Points& points() const { return points_; }
 
-  /// All points; attributes that are zero throughout are left out.
+  /// All points; attributes, normals and radii that are zero throughout are left out.
   [[nodiscard]] Points take();
 
  private:
   template <class F>
   void for_each_array(F f);
+  void fill_extra(const unsigned char* record, std::size_t at);
 
   LasHeader header_;
   LasFields fields_;
-  std::vector<LasExtraBytes> extra_;  ///< beside the last columns
+  LasExtras extra_;  ///< its columns beside the last ones
   bool keep_all_;
   Points points_;
 };

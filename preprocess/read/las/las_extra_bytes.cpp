@@ -1,10 +1,13 @@
 #include "preprocess/read/las/las_extra_bytes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include "engine/base/utf8.h"
 #include "preprocess/base/little_endian.h"
+#include "preprocess/read/scan/column_names.h"
 
 namespace splatray {
 namespace {
@@ -30,6 +33,29 @@ LasExtraBytes component(const unsigned char* descriptor, std::string_view name, 
   if ((options & OPTION_SCALE) != 0) one.scale = finite_or(load<double>(descriptor + 112 + 8 * i), 1.0);
   if ((options & OPTION_OFFSET) != 0) one.offset = finite_or(load<double>(descriptor + 136 + 8 * i), 0.0);
   return one;
+}
+
+/// A name with its component by a letter: "normalx" of "normal[0]".
+std::string lettered(const std::string& name) {
+  const std::size_t bracket = name.size() - std::min<std::size_t>(name.size(), 3);
+  const std::string_view suffix = std::string_view(name).substr(bracket);
+  constexpr std::string_view SUFFIXES[] = {"[0]", "[1]", "[2]"};
+  const auto* const found = std::find(std::begin(SUFFIXES), std::end(SUFFIXES), suffix);
+  return found == std::end(SUFFIXES) ? name : name.substr(0, bracket) + "xyz"[found - std::begin(SUFFIXES)];
+}
+
+std::optional<std::array<LasExtraBytes, 3>> find_normal(const std::vector<LasExtraBytes>& all) {
+  std::vector<std::string> names(all.size());
+  std::transform(all.begin(), all.end(), names.begin(),
+                 [](const LasExtraBytes& one) { return lettered(one.name); });
+  const std::vector<std::string> meanings = known_columns(names);
+  std::array<LasExtraBytes, 3> normal;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto found = std::find(meanings.begin(), meanings.end(), COLUMN_NORMALS[axis]);
+    if (found == meanings.end()) return std::nullopt;
+    normal[axis] = all[static_cast<std::size_t>(found - meanings.begin())];
+  }
+  return normal;
 }
 
 }  // namespace
@@ -93,6 +119,20 @@ std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descri
     }
   }
   return all;
+}
+
+LasExtras chosen_extra_bytes(const std::vector<LasExtraBytes>& all, const std::vector<std::string>& asked) {
+  LasExtras chosen;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(chosen.columns), [&](const LasExtraBytes& one) {
+    return std::any_of(asked.begin(), asked.end(), [&](const std::string& name) {
+      return one.name == name || (one.name.starts_with(name + "[") && !name.empty());
+    });
+  });
+  chosen.normal = find_normal(all);
+  const auto radius = std::find_if(all.begin(), all.end(),
+                                   [](const LasExtraBytes& one) { return plain_name(one.name) == "radius"; });
+  if (radius != all.end()) chosen.radius = *radius;
+  return chosen;
 }
 
 }  // namespace splatray

@@ -1,6 +1,8 @@
 /// Attributes that programs add to the records of LAS files (ASPRS, LAS Specification 1.4 R15, "Extra Bytes VLR").
 #pragma once
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,5 +29,17 @@ struct LasExtraBytes {
 /// begin at `begin`. Those that reach beyond the records' `end` are left out: the header's length rules.
 [[nodiscard]] std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descriptors,
                                                          std::size_t begin, std::size_t end);
+
+/// The extra bytes of a file that are read.
+struct LasExtras {
+  std::vector<LasExtraBytes> columns;  ///< that become columns of their names
+  /// Those that mean x, y and z of a normal by their names (known_columns; "normal[0]" to "normal[2]", too); all three or nothing.
+  std::optional<std::array<LasExtraBytes, 3>> normal;
+  std::optional<LasExtraBytes> radius;  ///< "radius", world units
+};
+
+/// Normals, radii and those that `asked` names; a vector's name asks for all its components.
+[[nodiscard]] LasExtras chosen_extra_bytes(const std::vector<LasExtraBytes>& all,
+                                           const std::vector<std::string>& asked);
 
 }  // namespace splatray

@@ -21,18 +21,8 @@ std::vector<LasExtraBytes> all_extra_bytes(const LasHeader& header, const LasVlr
   return las_extra_bytes(vlrs.extra_bytes, las_fields(header.point_format).bytes, header.record_bytes);
 }
 
-/// The extra bytes of the file that `names` ask for; a vector's name asks for all its components.
-std::vector<LasExtraBytes> wanted_extra_bytes(const LasHeader& header, const LasVlrs& vlrs,
-                                              const std::vector<std::string>& names) {
-  std::vector<LasExtraBytes> all = all_extra_bytes(header, vlrs);
-  std::vector<LasExtraBytes> wanted;
-  for (LasExtraBytes& one : all) {
-    const bool is_wanted = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-      return one.name == name || (one.name.starts_with(name + "[") && !name.empty());
-    });
-    if (is_wanted) wanted.push_back(std::move(one));
-  }
-  return wanted;
+LasExtras chosen_extra_bytes(const LasHeader& header, const LasVlrs& vlrs, const ScanOptions& options) {
+  return chosen_extra_bytes(all_extra_bytes(header, vlrs), options.attributes);
 }
 
 /// Points that are not compressed: `count` from the record `first` on, or as many as there are whole records.
@@ -117,7 +107,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
   const LasVlrs vlrs = read_las_vlrs(in, header);
   if (const auto sentence = differing_las_units(vlrs)) listener.note(path, *sentence);
   count_points(in, header, listener);
-  LasColumns columns(header, wanted_extra_bytes(header, vlrs, options.scans.attributes), options.scans);
+  LasColumns columns(header, chosen_extra_bytes(header, vlrs, options.scans), options.scans);
   ScanFile file;
   file.in_degrees = las_in_degrees(vlrs);
   file.counts.stored = header.point_count;
@@ -179,7 +169,7 @@ std::optional<bool> LasBatches::in_degrees() const { return las_in_degrees(vlrs_
 
 Points LasBatches::read(std::size_t i, ScanCounts& counts, const ReadListener& listener) {
   const Batch& batch = batches_[i];
-  LasColumns columns(header_, wanted_extra_bytes(header_, vlrs_, options_.scans.attributes), options_.scans);
+  LasColumns columns(header_, chosen_extra_bytes(header_, vlrs_, options_.scans), options_.scans);
   const std::uint64_t found =
       header_.is_compressed
           ? read_laz_points(in_, header_, vlrs_.laszip, batch.chunks, columns, counts, listener)

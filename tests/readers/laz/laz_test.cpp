@@ -6,6 +6,7 @@
 #include "preprocess/base/thread_limit.h"
 #include "preprocess/read/las/read_las.h"
 #include "tests/all_tests.h"
+#include "tests/readers/las_file.h"
 #include "tests/readers/read_error.h"
 #include "tests/temp_folder.h"
 
@@ -47,15 +48,9 @@ void put(std::string& bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-std::size_t points_offset(const std::string& bytes) {
-  std::uint32_t offset = 0;
-  std::memcpy(&offset, bytes.data() + 96, sizeof offset);
-  return offset;
-}
-
 std::uint64_t table_offset(const std::string& bytes) {
   std::uint64_t offset = 0;
-  std::memcpy(&offset, bytes.data() + points_offset(bytes), sizeof offset);
+  std::memcpy(&offset, bytes.data() + las_points_offset(bytes), sizeof offset);
   return offset;
 }
 
@@ -94,7 +89,7 @@ TEST(Laz, TheTablesPlaceMayStandAtTheEnd) {
   std::string bytes = bytes_of_file(corpus(POINTWISE));
   const Points expected = read_file(corpus(POINTWISE), everything()).points;
   bytes += bytes_of(table_offset(bytes));
-  put(bytes, points_offset(bytes), ~std::uint64_t{0});
+  put(bytes, las_points_offset(bytes), ~std::uint64_t{0});
   expect_equal(read_file(folder.write("a.laz", bytes), everything()).points, expected);
 }
 
@@ -107,7 +102,7 @@ TEST(Laz, AMissingTableIsNotNeeded) {
     // The program was stopped before it wrote the table; the file was cut off behind the chunks; the table is nonsense.
     std::string stopped = bytes.substr(0, table_offset(bytes));
     expect_equal(read_file(folder.write("a.laz", stopped), everything()).points, expected);
-    put(stopped, points_offset(bytes), std::uint64_t{points_offset(bytes)});
+    put(stopped, las_points_offset(bytes), std::uint64_t{las_points_offset(bytes)});
     expect_equal(read_file(folder.write("b.laz", stopped), everything()).points, expected);
     std::string nonsense = bytes;
     put(nonsense, table_offset(bytes) + 4, 0xFFFFFFFFU);
@@ -140,7 +135,7 @@ TEST(Laz, ADamagedChunkIsLeftOut) {
   // What no coder writes: an interval's value that is not below its length.
   std::uint16_t record_bytes = 0;
   std::memcpy(&record_bytes, bytes.data() + 105, sizeof record_bytes);
-  put(bytes, points_offset(bytes) + 8 + record_bytes, 0xFFFFFFFFU);
+  put(bytes, las_points_offset(bytes) + 8 + record_bytes, 0xFFFFFFFFU);
   const ScanFile part = read_file(folder.write("a.laz", bytes), everything());
   EXPECT_EQ(part.points.size(), 15U);
   EXPECT_EQ(part.counts.missing, 25U);
@@ -154,7 +149,7 @@ TEST(Laz, AChunkThatDoesNotEndWhereItsBytesDoIsLeftOut) {
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < 64; ++i) {
     std::string damaged = bytes;
-    damaged[points_offset(bytes) + 8 + 110 + i] ^= 4;
+    damaged[las_points_offset(bytes) + 8 + 110 + i] ^= 4;
     const Points points = read_file(folder.write("a.laz", damaged), everything()).points;
     noticed += points.size() == 15 ? 1 : 0;
     wrong += points.size() == 40 && points.position != expected.position ? 1 : 0;
