@@ -21,18 +21,23 @@ bool has_unjudged_colors(const Points& points) {
   return !points.stored_color.empty() && points.stored_color_most == 0;
 }
 
-/// Decides what the colours of unknown scale are, from all of them.
+/// Decides what the colours of unknown scale are, from all of them; which of 16 bits are 8 in the high byte each file says alone.
 void judge_colors(std::vector<NamedScan>& scans, std::vector<std::string>& notes) {
-  ColorRange range;
-  for (const NamedScan& scan : scans)
-    if (has_unjudged_colors(scan.file.points)) range.add(scan.file.points.stored_color);
-  if (const std::string said = color_note(range); !said.empty()) notes.push_back(said);
-  for (NamedScan& scan : scans) {
-    Points& points = scan.file.points;
+  ColorRange all;
+  std::vector<ColorRange> ranges(scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (has_unjudged_colors(scans[i].file.points)) ranges[i].add(scans[i].file.points.stored_color);
+    all.add(ranges[i]);
+  }
+  if (const std::string said = color_note(all); !said.empty()) notes.push_back(said);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    Points& points = scans[i].file.points;
     if (!has_unjudged_colors(points)) continue;
-    points.stored_color_most = static_cast<std::uint16_t>(std::max(range.full(), 255.0));
-    if (range.is_black()) {
-      notes.push_back(path_text(scan.path) + ": its colours are all black and were left out");
+    const bool is_high = all.full() >= HIGH_BYTES_FULL && ranges[i].full() == HIGH_BYTES_FULL;
+    points.stored_color_most =
+        static_cast<std::uint16_t>(is_high ? HIGH_BYTES_FULL : std::max(all.full(), 255.0));
+    if (all.is_black()) {
+      notes.push_back(path_text(scans[i].path) + ": its colours are all black and were left out");
       release(points.stored_color);
     }
   }

@@ -80,6 +80,21 @@ TEST(JoinScans, ColoursAreJudgedOverAllFiles) {
   EXPECT_EQ(joined_red({0, 0}), -1.0F) << "fields that are all zero are no colours";
 }
 
+TEST(JoinScans, ColoursOf8BitsIn16AreTheSameHoweverTheyAreStored) {
+  for (const std::vector<unsigned>& factors : {std::vector{256U}, {257U}, {256U, 257U}}) {
+    std::vector<NamedScan> scans;
+    for (const unsigned factor : factors) {
+      scans.push_back({"a", scan_at(0.0, 256)});
+      for (unsigned value = 0; value < 256; ++value)
+        scans.back().file.points.stored_color.emplace_back(static_cast<std::uint16_t>(value * factor));
+    }
+    const InputObject object = joined(std::move(scans));
+    ASSERT_EQ(object.points.color.size(), 256 * factors.size());
+    for (std::size_t i = 0; i < object.points.color.size(); ++i)
+      EXPECT_EQ(object.points.color[i].x, srgb_to_linear(static_cast<float>(i % 256) / 255.0F)) << i;
+  }
+}
+
 /// Of one point in each of the scans where `counts` has one: the station of each point, by the name of its scan.
 std::string stations_of_points(const std::vector<std::size_t>& counts) {
   std::vector<NamedScan> scans;

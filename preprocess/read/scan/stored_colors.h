@@ -15,6 +15,9 @@ namespace splatray {
   return value > 0.0 ? static_cast<std::uint16_t>(std::min(value, 65535.0) + 0.5) : std::uint16_t{0};
 }
 
+/// Full colour of 8 bits that stand in the high byte of 16.
+inline constexpr double HIGH_BYTES_FULL = 0xFF00;
+
 /// What full colour is, judged from all channels' values: the one rule of all formats that do not say it by their type.
 class ColorRange {
  public:
@@ -23,9 +26,11 @@ class ColorRange {
 
   void add(double value);  ///< what is not finite says nothing
   void add(const std::vector<glm::u16vec3>& colors);
+  void add(const ColorRange& more);  ///< what another has seen
 
   /// 1, 255, 1023, 4095 or 65535: the least of these that all values above 0 but one in 200 are at most, or one above. Fractions and
-  /// floats of which all but as many are at most 16 are of 0 to 1, as are values that are all 0 or 1.
+  /// floats of which all but as many are at most 16 are of 0 to 1, as are values that are all 0 or 1. HIGH_BYTES_FULL in place of 65535
+  /// where all values are multiples of 256 and no floats: some programs store 8 bits in the high byte of 16, and not times 257.
   [[nodiscard]] double full() const;
   [[nodiscard]] bool is_whole() const { return whole_; }          ///< all values are whole numbers
   [[nodiscard]] bool is_black() const { return !(most_ > 0.0); }  ///< no value is above 0
@@ -41,6 +46,7 @@ class ColorRange {
   double most_ = 0.0;
   bool floats_ = false;
   bool whole_ = true;
+  bool high_bytes_ = true;  ///< all values are multiples of 256
 };
 
 /// What was taken for granted about colours of this range, "" where nothing: 8 and 16 bits without outliers go without
