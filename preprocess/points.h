@@ -174,7 +174,7 @@ struct ScanOptions {
   bool ignore_checksums = false;  ///< pages whose checksum is wrong are read (E57)
   bool keep_withheld = false;     ///< points that are marked as deleted or as noise are kept
   std::string columns;  ///< of text files: names by comma, such as "x,y,z,intensity,-,r,g,b"; empty = found
-  /// Further ones to keep, by name (LAS's extra bytes, columns of text, PCD, PLY).
+  /// Further ones to keep, by name (extra bytes and fields of LAS, columns of text, PCD, PLY).
   std::vector<std::string> attributes;
 
   /// Where the scanner stood, world units after z_scale, for points whose file does not say; it decides the sides of their

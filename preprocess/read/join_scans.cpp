@@ -12,6 +12,7 @@
 #include "engine/base/srgb.h"
 #include "engine/base/utf8.h"
 #include "preprocess/base/point_arrays.h"
+#include "preprocess/read/scan/missing_attributes.h"
 #include "preprocess/read/scan/stored_colors.h"
 
 namespace splatray {
@@ -87,7 +88,8 @@ bool is_constant_zero(const Column& column) {
 
 }  // namespace
 
-InputObject join_scans(std::vector<NamedScan> scans, std::vector<std::string>& notes) {
+InputObject join_scans(std::vector<NamedScan> scans, std::vector<std::string>& notes,
+                       const std::vector<std::string>& asked) {
   judge_colors(scans, notes);
   InputObject object;
   object.name = scans.size() == 1 ? scans.front().name : "scans";
@@ -104,7 +106,9 @@ InputObject join_scans(std::vector<NamedScan> scans, std::vector<std::string>& n
     append_scans_points(object.points, std::move(scan.file.points));
   }
   Points& points = object.points;
-  std::erase_if(points.columns, is_constant_zero);
+  std::erase_if(points.columns, [&asked](const Column& column) {
+    return is_constant_zero(column) && !is_asked_for(asked, column.name);
+  });
   if (stations > 1) {
     points.station.resize(points.size(), 0);  // where all points are of the first station it is still empty
     points.columns.push_back({std::string(COLUMN_SCAN), points.station});

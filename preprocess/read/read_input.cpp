@@ -182,9 +182,9 @@ void add_track(Input& input, const ReadOptions& options) {
 }
 
 bool has_attribute(const InputObject& object, const std::string& name) {
-  return find_column(object.points.columns, name) != nullptr ||
+  return has_attribute(object.points.columns, name) ||
          std::any_of(object.meshes.begin(), object.meshes.end(),
-                     [&](const Mesh& mesh) { return find_column(mesh.vertices.columns, name) != nullptr; });
+                     [&](const Mesh& mesh) { return has_attribute(mesh.vertices.columns, name); });
 }
 
 /// Names those of the attributes asked for that no file has.
@@ -250,7 +250,8 @@ Input read_input(const std::vector<std::filesystem::path>& named, const ReadOpti
   require_one_system(scans);
   input.crs = one_crs(systems, input.notes);
   if (options.scans.z_scale != 1.0) input.crs = horizontal_crs(input.crs);
-  if (!scans.empty()) input.objects.push_back(join_scans(std::move(scans), input.notes));
+  if (!scans.empty())
+    input.objects.push_back(join_scans(std::move(scans), input.notes, options.scans.attributes));
   note_missing_attributes(input, options.scans.attributes);
   finish_objects(input, options);
   drop_empty_objects(input);

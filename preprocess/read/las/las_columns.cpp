@@ -5,6 +5,7 @@
 
 #include "engine/base/release.h"
 #include "preprocess/base/little_endian.h"
+#include "preprocess/read/scan/missing_attributes.h"
 
 namespace splatray {
 namespace {
@@ -61,7 +62,8 @@ LasColumns::LasColumns(const LasHeader& header, LasExtras extra, const ScanOptio
     : header_(header),
       fields_(las_fields(header.point_format)),
       extra_{{}, std::move(extra.normal), std::move(extra.radius)},
-      keep_all_(options.keep_withheld) {
+      keep_all_(options.keep_withheld),
+      asked_(options.attributes) {
   points_.columns = {{std::string(COLUMN_INTENSITY), std::vector<std::uint16_t>{}},
                      {std::string(COLUMN_CLASS), std::vector<std::uint8_t>{}},
                      {std::string(COLUMN_RETURN), std::vector<std::uint8_t>{}},
@@ -78,10 +80,14 @@ LasColumns::LasColumns(const LasHeader& header, LasExtras extra, const ScanOptio
 
 std::vector<bool> LasColumns::used_bytes() const {
   std::vector<bool> used(header_.record_bytes, false);
-  std::fill_n(used.begin(), fields_.bytes, true);
-  const auto use = [&used](const LasExtraBytes& one) {
-    std::fill_n(used.begin() + static_cast<std::ptrdiff_t>(one.at), one.bytes(), true);
+  const auto mark = [&used](std::size_t at, std::size_t count, bool is_used) {
+    std::fill_n(used.begin() + static_cast<std::ptrdiff_t>(at), count, is_used);
   };
+  mark(0, fields_.bytes, true);
+  constexpr std::size_t USER_DATA = 17, USER_DATA_AND_ANGLE_BYTES = 3;
+  if (header_.is_extended()) mark(USER_DATA, USER_DATA_AND_ANGLE_BYTES, false);
+  if (fields_.infrared != 0) mark(fields_.infrared, sizeof(std::uint16_t), false);
+  const auto use = [&mark](const LasExtraBytes& one) { mark(one.at, one.bytes(), true); };
   std::for_each(extra_.columns.begin(), extra_.columns.end(), use);
   if (extra_.normal) std::for_each(extra_.normal->begin(), extra_.normal->end(), use);
   if (extra_.radius) use(*extra_.radius);
@@ -165,8 +171,23 @@ void LasColumns::fill_extra(const unsigned char* record, std::size_t at) {
   if (extra_.radius) points_.radius[at] = static_cast<float>(extra_.radius->value(record));
 }
 
+std::vector<std::string> LasColumns::rounded() const {
+  std::vector<std::string> names;
+  for (std::size_t e = 0; e < extra_.columns.size(); ++e) {
+    const Column& column = points_.columns[FIXED_COLUMNS + e];
+    const auto* const values = std::get_if<std::vector<double>>(&column.values);
+    if (values != nullptr && std::any_of(values->begin(), values->end(), [&](double value) {
+          return extra_.columns[e].may_be_rounded(value);
+        }))
+      names.push_back(column.name);
+  }
+  return names;
+}
+
 Points LasColumns::take() {
-  std::erase_if(points_.columns, is_zero);
+  std::erase_if(points_.columns, [this](const Column& column) {
+    return column.size() != size() || (is_zero(column) && !is_asked_for(asked_, column.name));
+  });
   const auto drop_zeros = [](auto& list) {
     if (std::all_of(list.begin(), list.end(), [](const auto& value) { return value == decltype(value){}; }))
       release(list);

@@ -41,7 +41,10 @@ class LasColumns {
   /// Those that are there.
   [[nodiscard]] const Points& points() const { return points_; }
 
-  /// All points; attributes, normals and radii that are zero throughout are left out.
+  /// The names of attributes with integers of 2^53 and more, which doubles round.
+  [[nodiscard]] std::vector<std::string> rounded() const;
+
+  /// All points; attributes that are zero throughout are left out unless options ask for them, normals and radii always.
   [[nodiscard]] Points take();
 
  private:
@@ -53,6 +56,7 @@ class LasColumns {
   LasFields fields_;
   LasExtras extra_;  ///< its columns beside the last ones
   bool keep_all_;
+  std::vector<std::string> asked_;
   Points points_;
 };
 

@@ -7,7 +7,9 @@
 
 #include "engine/base/utf8.h"
 #include "preprocess/base/little_endian.h"
+#include "preprocess/read/las/las_further_fields.h"
 #include "preprocess/read/scan/column_names.h"
+#include "preprocess/read/scan/missing_attributes.h"
 
 namespace splatray {
 namespace {
@@ -71,7 +73,7 @@ double LasExtraBytes::value(const unsigned char* record) const {
   const double number = [&]() -> double {
     switch (type) {
       case 1:
-        return load<std::uint8_t>(bytes);
+        return (load<std::uint8_t>(bytes) >> shift) & mask;
       case 2:
         return load<std::int8_t>(bytes);
       case 3:
@@ -93,6 +95,12 @@ double LasExtraBytes::value(const unsigned char* record) const {
     }
   }();
   return scale * number + offset;
+}
+
+bool LasExtraBytes::may_be_rounded(double value) const {
+  constexpr unsigned U64 = 7, I64 = 8;
+  constexpr double MOST_EXACT = 0x1p53;
+  return (type == U64 || type == I64) && std::abs((value - offset) / scale) >= MOST_EXACT;
 }
 
 std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descriptors, std::size_t begin,
@@ -121,13 +129,16 @@ std::vector<LasExtraBytes> las_extra_bytes(std::span<const unsigned char> descri
   return all;
 }
 
-LasExtras chosen_extra_bytes(const std::vector<LasExtraBytes>& all, const std::vector<std::string>& asked) {
+LasExtras chosen_extra_bytes(unsigned point_format, const std::vector<LasExtraBytes>& all,
+                             const std::vector<std::string>& asked) {
   LasExtras chosen;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(chosen.columns), [&](const LasExtraBytes& one) {
-    return std::any_of(asked.begin(), asked.end(), [&](const std::string& name) {
-      return one.name == name || (one.name.starts_with(name + "[") && !name.empty());
-    });
-  });
+  for (const std::string& name : asked) {
+    const std::size_t before = chosen.columns.size();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(chosen.columns),
+                 [&](const LasExtraBytes& one) { return asks_for(name, one.name); });
+    if (chosen.columns.size() > before) continue;
+    if (auto field = las_further_field(point_format, name)) chosen.columns.push_back(*std::move(field));
+  }
   chosen.normal = find_normal(all);
   const auto radius = std::find_if(all.begin(), all.end(),
                                    [](const LasExtraBytes& one) { return plain_name(one.name) == "radius"; });

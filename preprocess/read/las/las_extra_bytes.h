@@ -16,6 +16,8 @@ struct LasExtraBytes {
   std::size_t at = 0;  ///< bytes from the record's begin
   double scale = 1.0;  ///< value = scale * number + offset
   double offset = 0.0;
+  /// Several fields may share a u8: number = (byte >> shift) & mask.
+  unsigned shift = 0, mask = 0xFF;
 
   /// Bytes of the number.
   [[nodiscard]] std::size_t bytes() const;
@@ -23,6 +25,8 @@ struct LasExtraBytes {
   [[nodiscard]] bool fits_float() const;
   /// The value in a record.
   [[nodiscard]] double value(const unsigned char* record) const;
+  /// Whether values may be rounded as a double: of integers that a double does not hold.
+  [[nodiscard]] bool may_be_rounded(double value) const;
 };
 
 /// The attributes that `descriptors` (192 bytes each, of all such records of a file) describe, in records whose extra bytes
@@ -38,8 +42,9 @@ struct LasExtras {
   std::optional<LasExtraBytes> radius;  ///< "radius", world units
 };
 
-/// Normals, radii and those that `asked` names; a vector's name asks for all its components.
-[[nodiscard]] LasExtras chosen_extra_bytes(const std::vector<LasExtraBytes>& all,
+/// Normals, radii and those that `asked` names; a vector's name asks for all its components. What no extra bytes have may be a further
+/// field of the records of this point format (las_further_fields.h).
+[[nodiscard]] LasExtras chosen_extra_bytes(unsigned point_format, const std::vector<LasExtraBytes>& all,
                                            const std::vector<std::string>& asked);
 
 }  // namespace splatray

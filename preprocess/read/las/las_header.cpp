@@ -18,8 +18,8 @@ constexpr unsigned COMPRESSED_FORMAT_BITS = 192;
 constexpr unsigned MOST_POINT_FORMAT = 10;
 
 constexpr LasFields FIELDS[] = {
-    {20, 0, 0},  {28, 20, 0},  {26, 0, 20},  {34, 20, 28}, {57, 20, 0},  {63, 20, 28},
-    {30, 22, 0}, {36, 22, 30}, {38, 22, 30}, {59, 22, 0},  {67, 22, 30},
+    {20, 0, 0, 0},  {28, 20, 0, 0},  {26, 0, 20, 0},   {34, 20, 28, 0}, {57, 20, 0, 0},   {63, 20, 28, 0},
+    {30, 22, 0, 0}, {36, 22, 30, 0}, {38, 22, 30, 36}, {59, 22, 0, 0},  {67, 22, 30, 36},
 };
 
 glm::dvec3 load_vector(const unsigned char* bytes) {

@@ -36,6 +36,7 @@ struct LasFields {
   std::size_t bytes;  ///< of the format; extra bytes follow
   std::size_t time;
   std::size_t color;
+  std::size_t infrared;
 };
 
 /// Where the fields of a record of point format 0 to 10 lie.

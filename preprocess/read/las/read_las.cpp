@@ -5,9 +5,11 @@
 
 #include "engine/base/number_text.h"
 #include "preprocess/base/level_facts.h"
+#include "preprocess/base/quoted_list.h"
 #include "preprocess/read/las/copc.h"
 #include "preprocess/read/las/las_columns.h"
 #include "preprocess/read/las/las_extra_bytes.h"
+#include "preprocess/read/las/las_further_fields.h"
 #include "preprocess/read/las/las_header.h"
 #include "preprocess/read/las/las_units.h"
 #include "preprocess/read/las/las_vlrs.h"
@@ -22,7 +24,18 @@ std::vector<LasExtraBytes> all_extra_bytes(const LasHeader& header, const LasVlr
 }
 
 LasExtras chosen_extra_bytes(const LasHeader& header, const LasVlrs& vlrs, const ScanOptions& options) {
-  return chosen_extra_bytes(all_extra_bytes(header, vlrs), options.attributes);
+  return chosen_extra_bytes(header.point_format, all_extra_bytes(header, vlrs), options.attributes);
+}
+
+/// Says once of a file which attributes are rounded.
+void note_rounded(const LasColumns& columns, const std::filesystem::path& path,
+                  const ReadListener& listener) {
+  const std::vector<std::string> names = columns.rounded();
+  const std::string sentence = "found integers of 2^53 and more in " + quoted_list(names) +
+                               ", expected less: of such numbers the first 53 bits are kept";
+  const auto is_said = [&](const std::string& note) { return note == path.string() + ": " + sentence; };
+  if (!names.empty() && std::none_of(listener.notes.begin(), listener.notes.end(), is_said))
+    listener.note(path, sentence);
 }
 
 /// Points that are not compressed: `count` from the record `first` on, or as many as there are whole records.
@@ -63,6 +76,13 @@ void count_points(ByteReader& in, LasHeader& header, const ReadListener& listene
     listener.note(in.path(), "the header counts no points; found " + std::to_string(header.point_count));
 }
 
+/// "a, b".
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 /// What the header says.
 std::vector<FileFact> facts_of(const LasHeader& header, const LasVlrs& vlrs) {
   std::vector<FileFact> facts = {{"version", "LAS 1." + std::to_string(header.version_minor)},
@@ -74,10 +94,10 @@ std::vector<FileFact> facts_of(const LasHeader& header, const LasVlrs& vlrs) {
   if (!header.software.empty()) facts.push_back({"software", header.software});
   if (header.year != 0)
     facts.push_back({"made", "day " + std::to_string(header.day) + " of " + std::to_string(header.year)});
-  std::string names;
-  for (const LasExtraBytes& extra : all_extra_bytes(header, vlrs))
-    names += (names.empty() ? "" : ", ") + extra.name;
-  if (!names.empty()) facts.push_back({"extra bytes", names});
+  std::vector<std::string> extra;
+  for (const LasExtraBytes& one : all_extra_bytes(header, vlrs)) extra.push_back(one.name);
+  if (!extra.empty()) facts.push_back({"extra bytes", listed(extra)});
+  facts.push_back({"more fields", listed(las_further_names(header.point_format))});
   return facts;
 }
 
@@ -137,6 +157,7 @@ ScanFile read_las(const std::filesystem::path& path, const ReadOptions& options,
     if (options.scans.strict) throw_unreadable(path, sentence);
     listener.note(path, sentence);
   }
+  note_rounded(columns, path, listener);
   file.points = columns.take();
   file.points.crs = las_crs(vlrs);
   return file;
@@ -176,6 +197,7 @@ Points LasBatches::read(std::size_t i, ScanCounts& counts, const ReadListener& l
           : read_records(in_, header_, batch.first, batch.count, columns, counts, listener);
   counts.stored += batch.count;
   counts.missing += batch.count - std::min(batch.count, found);
+  note_rounded(columns, in_.path(), listener);
   return columns.take();
 }
 

@@ -17,8 +17,8 @@ namespace splatray {
 
 /// Reads LAS 1.0 to 1.5 with point formats 0 to 10, as they are or compressed by LASzip, COPC among them, whatever the
 /// extension says. Positions are scale * integer + offset in double; z is up. Colours are as stored, of unknown scale.
-/// Columns: intensity, class, return, returns, source, time, and those extra bytes that `options.scans.attributes` names;
-/// those that are zero throughout are left out. Extra bytes are also where normals and radii come from (LasExtras). Besides the points it takes a few tens of megabytes.
+/// Columns: intensity, class, return, returns, source, time, and those extra bytes and further fields
+/// (las_further_fields.h) that `options.scans.attributes` names; others that are zero throughout are left out. Extra bytes are also where normals and radii come from (LasExtras). Besides the points it takes a few tens of megabytes.
 ///
 /// A file that ends early, or whose compressed parts are damaged, gives what is whole, with a note, or is refused when
 /// options.scans.strict. Throws Error (input_unreadable) for what is no such file.

@@ -16,7 +16,7 @@ namespace {
 ReadOptions everything() {
   ReadOptions options;
   options.scans.keep_withheld = true;
-  options.scans.attributes = {"a", "b", "c", "v"};
+  options.scans.attributes = {"a", "b", "c", "v", "user_data", "scan_angle", "scanner_channel", "nir"};
   return options;
 }
 

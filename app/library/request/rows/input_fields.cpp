@@ -34,7 +34,8 @@ Field smooth_row() {
 
 Field attributes_row() {
   return value_row(
-      "attributes", INPUT, "NAME,...", "further attributes of scans to keep: extra bytes, columns",
+      "attributes", INPUT, "NAME,...",
+      "further attributes of scans to keep: extra bytes, fields of LAS, columns",
       [](Request& request, const std::string& text) {
         request.source.scans.attributes = split_names(to_utf8(text));
       },

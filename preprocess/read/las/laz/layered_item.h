@@ -69,10 +69,12 @@ class LazChannels {
 /// Layers of an item of a record.
 [[nodiscard]] std::size_t layer_count(const LazItem& item);
 
-/// Position, returns, flags, class, source, time. Angle and user data stay as in the first record.
-[[nodiscard]] std::unique_ptr<LayeredItem> make_point14(unsigned version);
-/// Red, green, blue; near infrared, if it follows, is not decoded.
+/// A record's first 30 bytes; angle and user data are not written where `wanted` has none of their bytes.
+[[nodiscard]] std::unique_ptr<LayeredItem> make_point14(unsigned version, const std::vector<bool>& wanted);
+/// Red, green, blue.
 [[nodiscard]] std::unique_ptr<LayeredItem> make_rgb14(unsigned version);
+/// Near infrared, which follows them.
+[[nodiscard]] std::unique_ptr<LayeredItem> make_infrared14(unsigned version);
 /// Extra bytes, those that are wanted.
 [[nodiscard]] std::unique_ptr<LayeredItem> make_bytes14(unsigned version, std::vector<bool> wanted);
 

@@ -5,6 +5,7 @@
 #include "preprocess/base/little_endian.h"
 #include "preprocess/read/las/laz/layered_item.h"
 #include "preprocess/read/las/laz/pointwise_item.h"
+#include "preprocess/read/las/laz/rgb.h"
 
 namespace splatray {
 namespace {
@@ -71,6 +72,9 @@ class LayeredDecoder final : public LazDecoder {
     std::size_t layers = 0;
     for (const LazItem& item : layout.items) {
       items_.push_back({item.at, layers, make(item, wanted)});
+      const std::size_t infrared = item.at + sizeof(StoredRgb);
+      if (item.kind == Kind::rgbnir14 && wanted[infrared])
+        items_.push_back({infrared, layers + 1, make_infrared14(item.version)});
       layers += layer_count(item);
     }
     layers_.resize(layers);
@@ -132,7 +136,7 @@ class LayeredDecoder final : public LazDecoder {
     const auto begin = wanted.begin() + static_cast<std::ptrdiff_t>(item.at);
     switch (item.kind) {
       case Kind::point14:
-        return make_point14(item.version);
+        return make_point14(item.version, {begin, begin + static_cast<std::ptrdiff_t>(item.size)});
       case Kind::rgb14:
       case Kind::rgbnir14:
         return make_rgb14(item.version);

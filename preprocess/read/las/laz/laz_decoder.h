@@ -31,7 +31,7 @@ class LazDecoder {
   [[nodiscard]] virtual std::size_t consumed() const = 0;
 };
 
-/// `wanted`: which bytes of the record somebody needs; only extra bytes in layers are left out by it.
+/// `wanted`: which bytes of the record somebody needs; only user data, scan angle, infrared and extra bytes in layers are left out by it.
 [[nodiscard]] std::unique_ptr<LazDecoder> make_laz_decoder(const LazLayout& layout,
                                                            const std::vector<bool>& wanted);
 

@@ -35,6 +35,8 @@ struct Point14 {
   unsigned char returns = 0;
   unsigned char flags = 0;  ///< bits 0 to 3 of the class; 4, 5: direction, edge
   unsigned char classification = 0;
+  unsigned char user = 0;
+  std::int16_t angle = 0;
   std::uint64_t time = 0;
 };
 
@@ -49,6 +51,8 @@ Point14 load_point(const unsigned char* bytes) {
           static_cast<unsigned char>(bytes[14] >> 4U),
           static_cast<unsigned char>((flags & 15U) | ((flags >> 2U) & 48U)),
           bytes[16],
+          bytes[17],
+          load<std::int16_t>(bytes + 18),
           load<std::uint64_t>(bytes + 22)};
 }
 
@@ -60,6 +64,8 @@ void store_point(unsigned char* bytes, const Point14& point, unsigned channel) {
   bytes[14] = static_cast<unsigned char>(point.return_number | (point.returns << 4U));
   bytes[15] = static_cast<unsigned char>((point.flags & 15U) | (channel << 4U) | ((point.flags & 48U) << 2U));
   bytes[16] = point.classification;
+  bytes[17] = point.user;
+  store(bytes + 18, point.angle);
   store(bytes + 20, point.source);
   store(bytes + 22, point.time);
 }
@@ -85,6 +91,8 @@ struct Channel {
   std::array<SymbolModel<256>, 64> classification;
   std::array<SymbolModel<64>, 64> flags;
   IntegerDecoder<16, 4> intensity;
+  IntegerDecoder<16, 2> angle;
+  std::array<SymbolModel<256>, 64> user;
   IntegerDecoder<16, 1> source;
   GpsTimes times{false};
 
@@ -109,6 +117,8 @@ void Channel::start(const Point14& first) {
   for (auto& model : classification) model.reset();
   for (auto& model : flags) model.reset();
   intensity.reset();
+  angle.reset();
+  for (auto& model : user) model.reset();
   source.reset();
   times.start(first.time);
 }
@@ -128,13 +138,15 @@ struct Layer {
 
 class Point14Item final : public LayeredItem {
  public:
-  explicit Point14Item(unsigned version) : names_channel_always_(version >= 4) {}
+  Point14Item(unsigned version, const std::vector<bool>& wanted)
+      : names_channel_always_(version >= 4), wants_user_(wanted[17]), wants_angle_(wanted[18]) {}
 
   void start(const unsigned char* first, LazLayers layers, unsigned channel) override {
-    Layer* const wanted[] = {&position_, &z_,     &classification_, &flags_, &intensity_,
-                             nullptr,    nullptr, &source_,         &time_};
-    for (std::size_t i = 0; i < std::size(wanted); ++i)
-      if (wanted[i] != nullptr) wanted[i]->start(layers[i]);
+    Layer* const all[] = {&position_, &z_,    &classification_, &flags_, &intensity_,
+                          &angle_,    &user_, &source_,         &time_};
+    for (std::size_t i = 0; i < std::size(all); ++i) all[i]->start(layers[i]);
+    angle_.changes = angle_.changes && wants_angle_;
+    user_.changes = user_.changes && wants_user_;
     has_no_positions_ = false;
     for (Channel& one : channels_) one.is_met = false;
     current_ = channel;
@@ -161,8 +173,8 @@ class Point14Item final : public LayeredItem {
   }
 
  private:
-  [[nodiscard]] std::array<const Layer*, 7> all() const {
-    return {&position_, &z_, &classification_, &flags_, &intensity_, &source_, &time_};
+  [[nodiscard]] std::array<const Layer*, 9> all() const {
+    return {&position_, &z_, &classification_, &flags_, &intensity_, &angle_, &user_, &source_, &time_};
   }
 
   /// The channel for the record's other parts. Versions before 4 say 0 but where it changes.
@@ -247,12 +259,16 @@ class Point14Item final : public LayeredItem {
       std::uint16_t& last = channel.last_intensity[place * 2 + time_changes];
       point.intensity = last = static_cast<std::uint16_t>(channel.intensity.read(intensity_.in, last, place));
     }
+    if (angle_.changes && (changed & 8U) != 0)
+      point.angle = static_cast<std::int16_t>(channel.angle.read(angle_.in, point.angle, time_changes));
+    if (user_.changes)
+      point.user = static_cast<unsigned char>(user_.in.symbol(channel.user[point.user / 4U]));
     if (source_.changes && (changed & 32U) != 0)
       point.source = static_cast<std::uint16_t>(channel.source.read(source_.in, point.source, 0));
     if (time_.changes && time_changes != 0) point.time = channel.times.read(time_.in);
   }
 
-  bool names_channel_always_;
+  bool names_channel_always_, wants_user_, wants_angle_;
   /// Points were read, though their layer, which none goes without, is not there.
   bool has_no_positions_ = false;
   unsigned current_ = 0;
@@ -261,6 +277,8 @@ class Point14Item final : public LayeredItem {
   Layer classification_;
   Layer flags_;
   Layer intensity_;
+  Layer angle_;
+  Layer user_;
   Layer source_;
   Layer time_;
   std::array<Channel, LazChannels::COUNT> channels_;
@@ -268,6 +286,8 @@ class Point14Item final : public LayeredItem {
 
 }  // namespace
 
-std::unique_ptr<LayeredItem> make_point14(unsigned version) { return std::make_unique<Point14Item>(version); }
+std::unique_ptr<LayeredItem> make_point14(unsigned version, const std::vector<bool>& wanted) {
+  return std::make_unique<Point14Item>(version, wanted);
+}
 
 }  // namespace splatray
