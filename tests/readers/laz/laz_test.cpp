@@ -57,6 +57,8 @@ std::uint64_t table_offset(const std::string& bytes) {
 /// Pointwise chunks of 25 and 15 points, layered ones of 20, 1 and 19.
 const char* const POINTWISE = "pf5_items_v2.laz";
 const char* const LAYERED = "pf8_items_v3.laz";
+/// All points in one chunk without a table.
+const char* const ONE_CHUNK = "pf1_items_v1_one_chunk.laz";
 
 TEST(Laz, EveryKindOfItemGivesThePointsOfTheLasFile) {
   std::size_t files = 0;
@@ -126,6 +128,31 @@ TEST(Laz, AFileThatEndsInAChunkGivesThoseBefore) {
     ReadOptions strict = everything();
     strict.scans.strict = true;
     EXPECT_NE(read_error(file, strict).find("whole points, expected the 40"), std::string::npos);
+  }
+}
+
+/// Has the header count so many points.
+void claim(std::string& bytes, std::uint32_t count) {
+  put(bytes, 107, count);
+  if (bytes[25] >= 4) put(bytes, 247, std::uint64_t{count});
+}
+
+TEST(Laz, CountsBeyondTheChunksGiveThePointsThereAre) {
+  const TempFolder folder;
+  for (const char* name : {POINTWISE, LAYERED, ONE_CHUNK}) {
+    SCOPED_TRACE(name);
+    const Points expected = read_file(corpus(name), everything()).points;
+    std::string bytes = bytes_of_file(corpus(name));
+    for (const std::uint32_t count : {41U, 45U, 50U, 51U, 1000U}) {
+      claim(bytes, count);
+      const auto file = folder.write("a.laz", bytes);
+      const ScanFile read = read_file(file, everything());
+      expect_equal(read.points, expected);
+      EXPECT_EQ(read.counts.missing, count - 40);
+      ReadOptions strict = everything();
+      strict.scans.strict = true;
+      EXPECT_NE(read_error(file, strict).find("found 40 whole points, expected the"), std::string::npos);
+    }
   }
 }
 

@@ -13,7 +13,7 @@ struct LazChunk {
   std::uint64_t offset = 0;  ///< from the file's begin
   std::uint64_t bytes = 0;
   std::uint64_t points = 0;
-  bool is_last = false;  ///< the header may count fewer points than this one has
+  bool is_last = false;  ///< the header may count fewer points than this one has, or more
 };
 
 /// The chunks that hold the points which the header counts, from the table behind them; of layered chunks also without one,

@@ -18,13 +18,13 @@ class PointwiseDecoder final : public LazDecoder {
     for (const LazItem& item : layout.items) items_.push_back({item.at, make(item)});
   }
 
-  bool start(std::span<const unsigned char> chunk, std::size_t points) override {
-    if (chunk.size() < record_bytes_ || points == 0) return false;
+  std::size_t start(std::span<const unsigned char> chunk, std::size_t points) override {
+    if (chunk.size() < record_bytes_) return 0;
     first_ = chunk.data();
     is_first_ = true;
     for (auto& [at, item] : items_) item->start(first_ + at);
     in_.start(chunk.subspan(record_bytes_));
-    return true;
+    return points;
   }
 
   void read(unsigned char* records, std::size_t count) override {
@@ -80,11 +80,11 @@ class LayeredDecoder final : public LazDecoder {
     layers_.resize(layers);
   }
 
-  bool start(std::span<const unsigned char> chunk, std::size_t points) override {
+  std::size_t start(std::span<const unsigned char> chunk, std::size_t points) override {
     const std::size_t head = layered_head_bytes(layout_);
-    if (chunk.size() < head) return false;
+    if (chunk.size() < head) return 0;
     const LayeredChunk said = layered_chunk(layout_, chunk.data());
-    if (said.points < points || said.bytes > chunk.size()) return false;
+    if (said.bytes > chunk.size()) return 0;
     consumed_ = static_cast<std::size_t>(said.bytes);
     first_ = chunk.data();
     is_first_ = true;
@@ -100,7 +100,7 @@ class LayeredDecoder final : public LazDecoder {
     for (Part& part : items_)
       if (part.item)
         part.item->start(first_ + part.at, LazLayers(layers_).subspan(part.first_layer), channel);
-    return true;
+    return std::min<std::size_t>(points, said.points);
   }
 
   void read(unsigned char* records, std::size_t count) override {
@@ -167,6 +167,17 @@ std::size_t all_layers(const LazLayout& layout) {
 std::unique_ptr<LazDecoder> make_laz_decoder(const LazLayout& layout, const std::vector<bool>& wanted) {
   if (layout.is_layered) return std::make_unique<LayeredDecoder>(layout, wanted);
   return std::make_unique<PointwiseDecoder>(layout);
+}
+
+std::size_t points_there(LazDecoder& decoder, std::span<const unsigned char> chunk, std::size_t points,
+                         unsigned char* record) {
+  points = decoder.start(chunk, points);
+  for (std::size_t count = 1; count <= points; ++count) {
+    decoder.read(record, 1);
+    if (decoder.is_complete()) return count;
+    if (decoder.is_damaged()) return 0;
+  }
+  return 0;
 }
 
 std::size_t layered_head_bytes(const LazLayout& layout) {

@@ -18,10 +18,10 @@ class LazDecoder {
   LazDecoder& operator=(const LazDecoder&) = delete;
   virtual ~LazDecoder() = default;
 
-  /// Begins a chunk of at least `points` > 0 points, whose bytes must outlive its decoding; false where they are no such
-  /// chunk.
-  [[nodiscard]] virtual bool start(std::span<const unsigned char> chunk, std::size_t points) = 0;
-  /// Writes the next `count` records; in all no more than `points`. Bytes that are not needed may stay as they are.
+  /// Begins a chunk of `points` > 0 points, whose bytes must outlive its decoding. Returns how many of them there are as far as it
+  /// says so itself, which layered chunks do; 0 where it is no such chunk.
+  [[nodiscard]] virtual std::size_t start(std::span<const unsigned char> chunk, std::size_t points) = 0;
+  /// Writes the next `count` records; in all no more than there are. Bytes that are not needed may stay as they are.
   virtual void read(unsigned char* records, std::size_t count) = 0;
   /// Whether what was read is known to be wrong.
   [[nodiscard]] virtual bool is_damaged() const = 0;
@@ -34,6 +34,11 @@ class LazDecoder {
 /// `wanted`: which bytes of the record somebody needs; only user data, scan angle, infrared and extra bytes in layers are left out by it.
 [[nodiscard]] std::unique_ptr<LazDecoder> make_laz_decoder(const LazLayout& layout,
                                                            const std::vector<bool>& wanted);
+
+/// How many of a chunk's points there surely are, where fewer follow than the `points` that were claimed: those up to the first with
+/// which its bytes are used up; 0 where there is none such, as of damaged chunks. `record` has room for one.
+[[nodiscard]] std::size_t points_there(LazDecoder& decoder, std::span<const unsigned char> chunk,
+                                       std::size_t points, unsigned char* record);
 
 /// What a layered chunk says of itself.
 struct LayeredChunk {

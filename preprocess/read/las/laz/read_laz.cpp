@@ -45,25 +45,36 @@ void add(LasColumns::Filled& to, const LasColumns::Filled& more) {
 struct Loaded {
   LazChunk chunk;
   std::span<const unsigned char> bytes;
-  std::size_t at = 0;  ///< of its first point in the columns
-  bool is_whole = false;
+  std::size_t at = 0;      ///< of its first point in the columns
+  std::size_t points = 0;  ///< decoded; none of a chunk that is not whole
   LasColumns::Filled filled{};
 };
 
-/// Decodes a chunk into the room that it has.
-void decode(Loaded& loaded, Worker& worker, LasColumns& columns) {
+/// Decodes so many points of a chunk, or those that it says it has, into the room that it has.
+void decode(Loaded& loaded, std::size_t points, Worker& worker, LasColumns& columns) {
   LazDecoder& decoder = *worker.decoder;
-  auto left = static_cast<std::size_t>(loaded.chunk.points);
-  loaded.is_whole = decoder.start(loaded.bytes, left);
-  while (loaded.is_whole && left > 0) {
+  points = decoder.start(loaded.bytes, points);
+  loaded.filled = {};
+  bool is_whole = points > 0;
+  for (std::size_t left = points; is_whole && left > 0;) {
     const std::size_t step = std::min(left, worker.most_records);
     decoder.read(worker.records.data(), step);
     add(loaded.filled, columns.fill(worker.records.data(), step, loaded.at + loaded.filled.kept));
     left -= step;
-    loaded.is_whole = !decoder.is_damaged();
+    is_whole = !decoder.is_damaged();
   }
-  loaded.is_whole = loaded.is_whole && (loaded.chunk.is_last || decoder.is_complete());
-  if (!loaded.is_whole) loaded.filled = {};
+  is_whole = is_whole && (loaded.chunk.is_last || decoder.is_complete());
+  loaded.points = is_whole ? points : 0;
+  if (!is_whole) loaded.filled = {};
+}
+
+/// Decodes a chunk; the last may have fewer points than the header counts.
+void decode(Loaded& loaded, Worker& worker, LasColumns& columns) {
+  const auto claimed = static_cast<std::size_t>(loaded.chunk.points);
+  decode(loaded, claimed, worker, columns);
+  if (loaded.points > 0 || !loaded.chunk.is_last) return;
+  const std::size_t there = points_there(*worker.decoder, loaded.bytes, claimed, worker.records.data());
+  if (there > 0) decode(loaded, there, worker, columns);
 }
 
 class LazReader {
@@ -141,39 +152,58 @@ class LazReader {
     for (const Loaded& loaded : all) {
       columns_.move(loaded.at, loaded.filled.kept, end);
       end += loaded.filled.kept;
-      if (loaded.is_whole) count(loaded.chunk.points, loaded.filled);
+      count(loaded.points, loaded.filled);
     }
     columns_.cut(end);
     listener_.show(columns_.points());
   }
 
-  /// Chunks without a table, each from where the last one ends, until one is not whole.
+  /// Where the bytes of points end at the latest.
+  [[nodiscard]] std::uint64_t points_end() {
+    in_.seek(0);
+    const bool has_more = header_.evlr_offset > header_.points_offset;
+    return has_more ? std::min(header_.evlr_offset, in_.remaining()) : in_.remaining();
+  }
+
+  /// Chunks without a table, each from where the last one ends, until one is not whole: files with chunks have a table unless they are
+  /// cut off, within a chunk.
   void read_in_a_row() {
-    LazChunk chunk{first_laz_chunk(header_, layout_), 0, 0, false};
-    for (std::uint64_t left = header_.point_count; left > 0; left -= chunk.points) {
-      in_.seek(0);
-      if (chunk.offset >= in_.remaining()) return;
+    const std::uint64_t end = points_end();
+    LazChunk chunk{first_laz_chunk(header_, layout_), 0, 0, !layout_.is_chunked};
+    for (std::uint64_t left = header_.point_count; left > 0 && chunk.offset < end; left -= chunk.points) {
       chunk.points = layout_.is_chunked ? std::min<std::uint64_t>(left, layout_.chunk_points) : left;
       // No coder needs more.
       const std::uint64_t most_point_bytes = 3 * layout_.record_bytes + 64;
-      chunk.bytes = std::min(in_.remaining() - chunk.offset, chunk.points * most_point_bytes);
+      chunk.bytes = std::min(end - chunk.offset, chunk.points * most_point_bytes);
       const std::uint64_t consumed = read_alone(chunk);
       if (consumed == 0) return;
       chunk.offset += consumed;
     }
   }
 
-  /// Decodes a chunk that may not hold what it claims; room is made as points come. Returns the bytes that it took, 0 where
-  /// it is not whole and thus left out.
+  /// Decodes a chunk that may not hold what it claims. Returns the bytes that it took, 0 where it is not whole and thus left out;
+  /// the last may have fewer points.
   std::uint64_t read_alone(const LazChunk& chunk) {
     load(chunk.offset, chunk.bytes);
+    const auto claimed = static_cast<std::size_t>(chunk.points);
+    const std::uint64_t consumed = decode_alone(claimed);
+    if (consumed > 0 || !chunk.is_last) return consumed;
+    Worker& worker = workers_.local();
+    const std::size_t there = points_there(*worker.decoder, bytes_, claimed, worker.records.data());
+    return there > 0 ? decode_alone(there) : 0;
+  }
+
+  /// Decodes so many points of the bytes that are loaded; room is made as they come. Returns the bytes that they took, 0 where they
+  /// are damaged.
+  std::uint64_t decode_alone(std::size_t points) {
     Worker& worker = workers_.local();
     const std::size_t begin = columns_.size();
     LasColumns::Filled filled;
-    bool is_whole = worker.decoder->start(bytes_, static_cast<std::size_t>(chunk.points));
-    for (std::uint64_t left = chunk.points; is_whole && left > 0;) {
+    points = worker.decoder->start(bytes_, points);
+    bool is_whole = points > 0;
+    for (std::size_t left = points; is_whole && left > 0;) {
       report();
-      const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(left, worker.most_records));
+      const std::size_t step = std::min(left, worker.most_records);
       worker.decoder->read(worker.records.data(), step);
       const std::size_t at = columns_.grow(step);
       add(filled, columns_.fill(worker.records.data(), step, at));
@@ -185,7 +215,7 @@ class LazReader {
       columns_.cut(begin);
       return 0;
     }
-    count(chunk.points, filled);
+    count(points, filled);
     return worker.decoder->consumed();
   }
 
