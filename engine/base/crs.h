@@ -36,6 +36,9 @@ struct Crs {
 
 /// Metres of a unit of length by EPSG's number; 0 = another.
 [[nodiscard]] double epsg_unit_metres(unsigned code);
+/// Metres of a unit of a projected or vertical system by EPSG's number, where that unit is a foot, the international or the United
+/// States'; 0 = of another, or no such system.
+[[nodiscard]] double epsg_system_metres(unsigned code);
 /// EPSG's number of the unit of that many metres; 0 = another.
 [[nodiscard]] std::uint16_t epsg_unit(double metres);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/crs.h"
 #include "tests/readers/las_file.h"
 #include "tests/temp_folder.h"
 
@@ -257,6 +258,8 @@ TEST(Las, UnitsThatDifferAreReported) {
             "z is in US survey feet while x and y are in metres");
   EXPECT_EQ(notes(geo_keys({{1024, 1}, {3076, 9003}, {4099, 9002}})), "");
   EXPECT_EQ(notes(geo_keys({{1024, 1}, {3076, 9001}})), "");
+  EXPECT_EQ(notes(geo_keys({{1024, 1}, {3072, 2264}, {4099, 9001}})),
+            "z is in metres while x and y are in US survey feet");
   const std::string geographic = R"(GEOGCS["WGS 84",DATUM["WGS_1984"],UNIT["degree",0.0174532925199433]])";
   const std::string projected =
       "PROJCS[\"UTM\"," + geographic + R"(,PARAMETER["false_easting",0],UNIT["metre",1]])";
@@ -280,6 +283,12 @@ TEST(Las, CoordinateSystemIsKept) {
   EXPECT_EQ(crs({keys, las_vlr("LASF_Projection", 2112, text)}), text) << "the text says more";
   EXPECT_EQ(crs({keys}), "EPSG:2264+5703;xy=0.3048006096012192;z=1");
   EXPECT_EQ(crs({geo_keys({{1024, 2}, {2048, 4326}})}), "EPSG:4326;deg");
+  EXPECT_EQ(crs({geo_keys({{1024, 1}, {3072, 2264}})}), "EPSG:2264;xy=0.3048006096012192");
+  EXPECT_EQ(crs({geo_keys({{1024, 1}, {3072, 2264}, {3076, 9001}})}), "EPSG:2264;xy=1") << "the key rules";
+  EXPECT_EQ(crs({geo_keys({{1024, 1}, {3072, 2264}, {3076, 32767}})}), "EPSG:2264;xy=0.3048006096012192");
+  EXPECT_EQ(crs({geo_keys({{1024, 1}, {3072, 2222}, {4096, 6360}})}),
+            "EPSG:2222+6360;xy=0.3048;z=0.3048006096012192");
+  EXPECT_EQ(crs({geo_keys({{1024, 1}, {3072, 25832}})}), "EPSG:25832");
   EXPECT_EQ(crs({geo_keys({{1024, 1}, {2048, 4326}, {3072, 32767}})}), "") << "a system of the user's own";
 }
 
@@ -300,6 +309,19 @@ TEST(Las, ScaledHeightsLeaveTheirSystem) {
   EXPECT_EQ(crs(las_vlr("LASF_Projection", 2112, both), 1.0), both);
   EXPECT_EQ(crs(las_vlr("LASF_Projection", 2112, both), 0.3048), projected);
   EXPECT_EQ(crs(las_vlr("LASF_Projection", 2112, projected), 0.3048), projected);
+}
+
+TEST(Las, SystemsInFeetAreThoseOfEpsg) {
+  constexpr double US_FOOT = 1200.0 / 3937.0, FOOT = 0.3048;
+  for (const unsigned code : {2155U, 2225U, 2250U, 2264U, 2899U, 6358U, 6543U, 26729U, 32058U, 6360U})
+    EXPECT_EQ(epsg_system_metres(code), US_FOOT) << code;
+  for (const unsigned code : {2222U, 2224U, 2251U, 2256U, 2992U, 6557U, 8228U, 8348U, 20050U})
+    EXPECT_EQ(epsg_system_metres(code), FOOT) << code;
+  for (const unsigned code : {0U, 2154U, 2193U, 5703U, 6542U, 6556U, 8347U, 25832U, 32617U, 65536U + 2264U})
+    EXPECT_EQ(epsg_system_metres(code), 0.0) << code;
+  EXPECT_EQ(describe_crs("EPSG:2264+6360").horizontal_metres, US_FOOT);
+  EXPECT_EQ(describe_crs("EPSG:2264+6360").vertical_metres, US_FOOT);
+  EXPECT_EQ(describe_crs("EPSG:2264;xy=1").horizontal_metres, 1.0);
 }
 
 TEST(Las, EveryPrefixIsReadOrRefused) {

@@ -42,6 +42,9 @@ KeyedCrs crs_of_keys(const std::vector<unsigned char>& keys) {
     if (key == LINEAR_UNITS) crs.horizontal_metres = epsg_unit_metres(value);
     if (key == VERTICAL_UNITS) crs.vertical_metres = epsg_unit_metres(value);
   }
+  if (crs.horizontal_metres == 0.0 && !crs.is_degrees)
+    crs.horizontal_metres = epsg_system_metres(found.projected);
+  if (crs.vertical_metres == 0.0) crs.vertical_metres = epsg_system_metres(found.vertical);
   return found;
 }
 

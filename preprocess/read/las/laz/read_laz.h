@@ -14,9 +14,9 @@
 
 namespace splatray {
 
-/// Adds the points of all chunks that are whole to `columns`, in the file's order (a whole chunk may have fewer than the header counts), and what was left out of them to
-/// `counts`; `record` is LASzip's. `chosen`: these chunks, ascending by their places, else all. Chunks are decoded in parallel, some of
-/// them in memory at a time. Returns how many points were decoded, at most header.point_count. Throws Error (input_unreadable) for
+/// Adds the points of all chunks that are whole to `columns`, in the file's order, and what was left out of them to `counts`; a whole
+/// chunk may have fewer than the header counts. `record` is LASzip's. `chosen`: these chunks, ascending by their places, else all.
+/// Chunks are decoded in parallel, some of them in memory at a time. Returns how many points were decoded, at most header.point_count. Throws Error (input_unreadable) for
 /// compressors that are not known.
 [[nodiscard]] std::uint64_t read_laz_points(ByteReader& in, const LasHeader& header,
                                             std::span<const unsigned char> record,
