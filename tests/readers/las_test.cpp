@@ -260,6 +260,10 @@ TEST(Las, UnitsThatDifferAreReported) {
   EXPECT_EQ(notes(geo_keys({{1024, 1}, {3076, 9001}})), "");
   EXPECT_EQ(notes(geo_keys({{1024, 1}, {3072, 2264}, {4099, 9001}})),
             "z is in metres while x and y are in US survey feet");
+  EXPECT_EQ(notes(geo_keys({{1024, 1}, {3072, 2264}, {3076, 9001}})),
+            "x and y are in metres by the file's key of units and in US survey feet by EPSG:2264; the key is "
+            "taken");
+  EXPECT_EQ(notes(geo_keys({{1024, 1}, {3072, 2264}, {3076, 9003}})), "");
   const std::string geographic = R"(GEOGCS["WGS 84",DATUM["WGS_1984"],UNIT["degree",0.0174532925199433]])";
   const std::string projected =
       "PROJCS[\"UTM\"," + geographic + R"(,PARAMETER["false_easting",0],UNIT["metre",1]])";

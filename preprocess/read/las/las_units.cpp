@@ -1,6 +1,9 @@
 #include "preprocess/read/las/las_units.h"
 
+#include <cmath>
+
 #include "engine/base/crs.h"
+#include "engine/base/length_unit.h"
 #include "preprocess/base/little_endian.h"
 
 namespace splatray {
@@ -48,6 +51,15 @@ KeyedCrs crs_of_keys(const std::vector<unsigned char>& keys) {
   return found;
 }
 
+/// A sentence where the key of the unit and the unit of EPSG's system differ, by more than the two feet do.
+std::optional<std::string> contradiction(const KeyedCrs& keyed) {
+  constexpr double SAME = 1e-5;
+  const double by_key = keyed.crs.horizontal_metres, by_system = epsg_system_metres(keyed.projected);
+  if (by_system == 0.0 || std::abs(by_key / by_system - 1.0) < SAME) return std::nullopt;
+  return "x and y are in " + length_name(by_key) + " by the file's key of units and in " +
+         length_name(by_system) + " by EPSG:" + std::to_string(keyed.projected) + "; the key is taken";
+}
+
 Crs units_of(const LasVlrs& vlrs) {
   return vlrs.wkt.empty() ? crs_of_keys(vlrs.geo_keys).crs : describe_crs(vlrs.wkt);
 }
@@ -64,6 +76,8 @@ std::string las_crs(const LasVlrs& vlrs) {
 std::optional<std::string> differing_las_units(const LasVlrs& vlrs) {
   const Crs units = units_of(vlrs);
   if (units.is_degrees) return "x and y are degrees; the shape is right only in a projected system";
+  if (vlrs.wkt.empty())
+    if (auto sentence = contradiction(crs_of_keys(vlrs.geo_keys))) return sentence;
   const std::string sentence = different_units(units);
   return sentence.empty() ? std::nullopt : std::optional(sentence);
 }
