@@ -133,6 +133,7 @@ LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t co
   std::uint8_t* const returns = array(RETURNS_COLUMN, std::uint8_t{});
   std::uint16_t* const source = array(SOURCE_COLUMN, std::uint16_t{});
   double* const time = array(TIME_COLUMN, double{});
+  const bool has_extra = !extra_.columns.empty() || extra_.normal || extra_.radius;
   const std::size_t begin = at;
   Filled filled;
   for (std::size_t i = 0; i < count; ++i) {
@@ -150,7 +151,7 @@ LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t co
     source[at] = static_cast<std::uint16_t>(marks.source);
     if (fields_.time != 0) time[at] = load<double>(record + fields_.time);
     if (fields_.color != 0) points_.stored_color[at] = load<glm::u16vec3>(record + fields_.color);
-    fill_extra(record, at);
+    if (has_extra) fill_extra(record, at);
     ++at;
   }
   filled.kept = at - begin;
