@@ -18,6 +18,8 @@ constexpr double PLANE_STEP = 0.03;   ///< of the same, between parallel planes 
 constexpr double NORMAL_STEPS = 4.0;  ///< of a normal's components from 0 to 1, that are told apart
 /// A view from outside is closed from here on: 0.75 to 0.94 of flats, courtyards and half a room, 0.5 of a street.
 constexpr double CLOSED_BEHIND = 0.65;
+/// The same where the sides were measured: most of what is seen is the back of what the scanner saw.
+constexpr double MOST_BEHIND = 0.5;
 /// A doll's house opens from here on: one room had 0.89 with its sides right, 0.08 with these turned.
 constexpr double OPEN_BEHIND = 0.15;
 constexpr double DOLL_BACKGROUND = 0.9, INSIDE_BACKGROUND = 0.75, INSIDE_PLANE = 0.7, INSIDE_NEAR = 0.25;
@@ -116,8 +118,9 @@ CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint 
   const Camera camera = viewpoint_camera(scene, viewpoint, double(WIDTH) / HEIGHT, {});
   const ViewFigures all = view_figures(sample, camera, false);
   if (is_outside(viewpoint)) {
-    const bool closed =
-        all.behind > CLOSED_BEHIND && (has_measured_sides(scene) || is_built(sample, upright_axes(scene.up)));
+    const bool closed = has_measured_sides(scene)
+                            ? all.behind > MOST_BEHIND
+                            : all.behind > CLOSED_BEHIND && is_built(sample, upright_axes(scene.up));
     return {viewpoint, closed ? ViewFault::closed : ViewFault::none, all.behind};
   }
   if (viewpoint == Viewpoint::dollhouse) {

@@ -39,11 +39,12 @@ struct CheckedView {
   double share = 0.0;
 };
 
-/// The check of one view of a scan. A view from outside, front or oblique, is closed where more than 65 % of what it shows is seen
-/// from behind and either most of the points lie in upright or level planes or all scanners' places are known, which decide the sides:
-/// it looks at the backs of walls or of a cave's roof. A doll's house is closed where less than 15 % faces away from the camera, and
-/// from one at the other side, so that nothing is left out; it shows background where 90 % is empty. A view from inside is in a wall
-/// where a quarter is next to the camera, has one plane where that is more than 70 %, and background where more than 75 % is empty.
+/// The check of one view of a scan. A view from outside, front or oblique, is closed where more than half of what it shows is seen from
+/// behind and all scanners' places are known, which decide the sides, or more than 65 % and most of the points lie in upright or level
+/// planes: it looks at the backs of walls, or of a roof over the scanner. A doll's house is closed where less than 15 % faces away
+/// from the camera, and from one at the other side, so that nothing is left out; it shows background where 90 % is empty. A view from
+/// inside is in a wall where a quarter is next to the camera, has one plane where that is more than 70 %, and background where more than
+/// 75 % is empty.
 [[nodiscard]] CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint viewpoint);
 
 /// The views of a scan of this kind that are tried, ending with the first without a fault, which is to be shown: `first`, the kind's own,
