@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/scene/clip.h"
+#include "engine/scene/scene_splat.h"
 #include "engine/scene/splat.h"
 #include "preprocess/write/left_out.h"
 #include "tests/preprocess/shapes.h"
@@ -258,9 +259,13 @@ TEST(WriteCsv, NumbersReadAsTheSameBits) {
   const Scene scene = built(corner_scan());
   const TempFolder folder;
   const Input input = read_input({written(scene, folder, "a.csv")}, {});
-  EXPECT_TRUE(input.objects.at(0).points.position == places(scene));
-  EXPECT_EQ(find_column(input.objects[0].points.columns, COLUMN_TIME)->number(3),
+  const Points& points = input.objects.at(0).points;
+  EXPECT_TRUE(points.position == places(scene));
+  EXPECT_EQ(find_column(points.columns, COLUMN_TIME)->number(3),
             find_column(scene.columns, COLUMN_TIME)->number(3));
+  ASSERT_EQ(points.radius.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_NEAR(points.radius[i], splat_at(scene, i).radius_world(), 2e-4 * points.radius[i]) << i;
 }
 
 TEST(LeftOutPoints, AreWrittenAsLowNoise) {

@@ -10,6 +10,8 @@ namespace splatray {
 inline constexpr std::string_view COLUMN_AXES[] = {"x", "y", "z"};
 inline constexpr std::string_view COLUMN_NORMALS[] = {"nx", "ny", "nz"};
 inline constexpr std::string_view COLUMN_COLORS[] = {"red", "green", "blue"};
+/// A disc's; known_columns does not know it, as formats of scans alone have none.
+inline constexpr std::string_view COLUMN_RADIUS = "radius";
 
 /// Letters and digits alone, in lower case: how names are compared.
 [[nodiscard]] std::string plain_name(std::string_view name);

@@ -32,8 +32,8 @@ bool is_one_of(const std::string& name, const std::string_view (&names)[3]) {
 }
 
 bool is_float(const std::string& name) {
-  return name.empty() || name == COLUMN_INTENSITY || is_one_of(name, COLUMN_NORMALS) ||
-         is_one_of(name, COLUMN_COLORS);
+  return name.empty() || name == COLUMN_INTENSITY || name == COLUMN_RADIUS ||
+         is_one_of(name, COLUMN_NORMALS) || is_one_of(name, COLUMN_COLORS);
 }
 
 class XyzReader {
@@ -200,6 +200,10 @@ class XyzReader {
     for (Extra& extra : extras_) {
       if (extra.name.empty() || is_one_of(extra.name, COLUMN_NORMALS) || is_one_of(extra.name, COLUMN_COLORS))
         continue;
+      if (extra.name == COLUMN_RADIUS) {
+        take_radii(std::move(extra.values));
+        continue;
+      }
       if (!extra.values.empty()) extra.exact.assign(extra.values.begin(), extra.values.end());
       if (extra.name == COLUMN_SCAN) {
         if (!make_stations(extra.exact, points))
@@ -208,6 +212,14 @@ class XyzReader {
         points.columns.push_back(narrow_column(extra.name, std::move(extra.exact)));
       }
     }
+  }
+
+  /// What is no radius is one to be found.
+  void take_radii(std::vector<float>&& values) {
+    for (float& value : values)
+      if (!(value > 0.0F && std::isfinite(value))) value = 0.0F;
+    if (std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0F; }))
+      file_.points.radius = std::move(values);
   }
 
   void report() const {

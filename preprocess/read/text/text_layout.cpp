@@ -178,6 +178,7 @@ class HeadReader {
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::string& column = layout_.columns[i];
       layout_.degrees = layout_.degrees || (!column.empty() && is_degrees(names[i]));
+      if (column.empty() && plain_name(names[i]) == COLUMN_RADIUS) column = COLUMN_RADIUS;
       if (column.empty()) column = attribute(names[i], keep_all);
       if (column.empty() && names[i] != "-") layout_.unused.push_back(names[i]);
     }

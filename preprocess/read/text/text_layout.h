@@ -13,7 +13,7 @@ namespace splatray {
 struct TextLayout {
   CellForm form;   ///< cells without a meaning are skipped
   TextPlace data;  ///< where the first row begins
-  /// By cell: known_columns' names, an attribute's own, "" = not used; empty = not named.
+  /// By cell: known_columns' names, COLUMN_RADIUS, an attribute's own, "" = not used; empty = not named.
   std::vector<std::string> columns;
   std::vector<std::string> unused;     ///< names in the header that are not known
   std::optional<std::uint64_t> count;  ///< of points, where a line before them says it
