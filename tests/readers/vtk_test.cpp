@@ -368,6 +368,9 @@ TEST(Vtk, ArraysOfMoreOrFewerValuesThanTheySayAreNoFaults) {
                 "<FieldData>" + text_array(values, " NumberOfTuples=\"" + count + "\"") + "</FieldData>");
   };
   EXPECT_EQ(read_input({field(texts, "1")}, {}).objects[0].points.size(), 2U);
+  EXPECT_NE(read_error(with("<Piece", "<FieldData>" + array("Text", "odd", "1") + "</FieldData>"))
+                .find("of type 'Text'"),
+            std::string::npos);
   EXPECT_NE(read_error(field("65 0", "9")).find("fewer values of 'label'"), std::string::npos);
   EXPECT_EQ(read_input({with("</PointData>", text_array(texts, ""))}, {}).objects[0].points.size(), 2U);
   EXPECT_NE(read_error(with("</PointData>", text_array("65 0", ""))).find("fewer values of 'label'"),

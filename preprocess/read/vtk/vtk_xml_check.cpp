@@ -117,6 +117,7 @@ class XmlScan {
       fail("its elements nest more than " + std::to_string(MOST_VTK_DEPTH) + " deep");
     if (name == "VTKFile") read_file_attributes(attributes);
     if (name == "Piece" && attributes.count("Source") > 0) sources_.push_back(value_of(attributes, "Source"));
+    if (name == "Array" || name == "DataArray") check_type(value_of(attributes, "type"));
     check_counts(attributes);
     if (name == "AppendedData") {
       check_appended_arrays(value_of(attributes, "encoding") == "base64");
@@ -159,6 +160,14 @@ class XmlScan {
       fail("found " + name + " '" + text.substr(0, 20) + "', expected a whole number");
     }
     return number;
+  }
+
+  /// VTK (9.1) reads through a null pointer where data beside the points are of a type that it does not know.
+  void check_type(const std::string& type) const {
+    constexpr std::array TYPES{"Int8",  "UInt8",  "Int16",   "UInt16",  "Int32",  "UInt32",
+                               "Int64", "UInt64", "Float32", "Float64", "String", "Bit"};
+    if (std::find(TYPES.begin(), TYPES.end(), type) == TYPES.end())
+      fail("found an array of type '" + type + "', expected one of VTK's, such as Float32");
   }
 
   /// All that VTK makes arrays of before it sees their content.
