@@ -29,7 +29,7 @@ def las(points, feet_high=False):
     records = b"".join(struct.pack("<3iHBBBBH3H", *(round(1000 * (value - low)) for value, low in zip(place, lows)), 0, 9, kind, 0, 0, 0, *color)
                        for *place, kind, color in points)
     box = [value for axis in range(3) for value in (highs[axis], lows[axis])]
-    keys = struct.pack("<16H", 1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 9001, 4099, 0, 1, 9003) if feet_high else b""
+    keys = struct.pack("<16H", 1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 9001, 4099, 0, 1, 9002) if feet_high else b""
     if keys:
         keys = struct.pack("<H16sHH32x", 0, b"LASF_Projection", 34735, len(keys)) + keys
     head = b"LASF" + bytes(20) + b"\1\2" + bytes(68) + struct.pack("<HIIBHI", 227, 227 + len(keys), len(keys) > 0, 2, 26, len(points))
