@@ -21,7 +21,7 @@ enum class SceneKind {
 /// - camera: it has a camera of its own, or seeing_place finds one, or its frame is a camera's (is_camera_frame).
 /// - room: is_within holds at a station, or at the middle of the points, and most normals face that place, overhead too.
 /// - sweep: points lie all around a station or, where no place is known, the origin, in 12 of 12 sectors of azimuth,
-///   and half of them within 0.6 of the reach of 90 %.
+///   and half of them within 0.6 of the reach of 90 % and in less than 0.45 of the space that these fill: ever further apart.
 /// - site: less than 0.3 times as high as wide.
 /// - object: else.
 [[nodiscard]] SceneKind kind_of_scan(const Scene& scene);

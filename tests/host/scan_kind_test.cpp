@@ -56,6 +56,17 @@ TEST(SceneKind, FollowsThePoints) {
   EXPECT_EQ(kind_of_scan(scan_scene(ground(true))), SceneKind::sweep);
 }
 
+/// A road of 120 m is long, so that half of its points lie near its middle, however even they are.
+TEST(SceneKind, AnEvenRoadAboutTheOriginIsNoSweep) {
+  OrientedPoints road;
+  constexpr int COUNT = 20000;
+  for (int i = 0; i < COUNT; ++i) {
+    const double along = (i + 0.5) / COUNT - 0.5, across = std::fmod(i * std::numbers::phi, 1.0) - 0.5;
+    road.emplace_back(glm::dvec3(120.0 * along, 8.0 * across, 0.0), glm::dvec3(0.0, 0.0, 1.0));
+  }
+  EXPECT_EQ(kind_of_scan(scan_scene(road)), SceneKind::site);
+}
+
 TEST(SceneKind, ABoxThatFacesOutIsNoRoom) {
   OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
   for (auto& [position, normal] : points) normal = -normal;
