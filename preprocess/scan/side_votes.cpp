@@ -258,11 +258,28 @@ void ask_neighbours(const Cloud& cloud, const Survey& survey, const Parts& parts
   }
 }
 
-/// Whether much of the cloud lies in planes that all but few points are on one side of, and there is a floor among these.
+/// The share of an even choice of points on surfaces whose normals are within 10 degrees of an axis or across it: of a round thing a fifth.
+double built_share(const Cloud& cloud, const glm::dvec3& axis) {
+  constexpr std::size_t ASKED = 2048;
+  constexpr double ALONG = 0.985, ACROSS = 0.17;
+  const std::size_t asked = std::min(ASKED, cloud.size());
+  std::size_t built = 0;
+  for (std::size_t n = 0; n < asked; ++n) {
+    const std::size_t i = n * cloud.size() / asked;
+    const double along = std::abs(glm::dot(glm::dvec3(cloud.normal[i]), axis));
+    built += cloud.on_surface(i) && (along > ALONG || along < ACROSS) ? 1 : 0;
+  }
+  return static_cast<double>(built) / static_cast<double>(asked);
+}
+
+/// Whether much of the cloud lies in planes that all but few points are on one side of, there is a floor among these, and the rest is built
+/// as they are: a bust whose base and crown are flat is round between them.
 bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
   constexpr std::size_t PLANES = 512, POINTS = 2000;
   constexpr double FLOOR_SHARE =
       0.03;  // of the planes' squared normals, of those that look up: noise leaves 0.01
+  constexpr double AS_PLANES = 0.5,
+                   UPRIGHT = 0.3;  // rooms have 0.65 and more, a cave 0.39; a bust 0.38, 0.26
   const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
   std::vector<std::int8_t> inwards(
       planes);  // of planes that bound: the sign that turns their normals to the others
@@ -285,12 +302,15 @@ bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) 
   const auto count = static_cast<double>(planes) -
                      static_cast<double>(std::count(inwards.begin(), inwards.end(), std::int8_t{0}));
   if (!(count > ROOM_SHARE * static_cast<double>(planes))) return false;
-  double floor = 0.0;
+  double floor = 0.0, built = 0.0;
   for (std::size_t p = 0; p < planes; ++p) {
-    const double along = inwards[p] * glm::dot(glm::dvec3(cloud.normal[p * cloud.size() / planes]), up);
+    if (inwards[p] == 0) continue;
+    const glm::dvec3 normal(cloud.normal[p * cloud.size() / planes]);
+    const double along = inwards[p] * glm::dot(normal, up);
     floor += along > 0.0 ? along * along : 0.0;
+    built += built_share(cloud, normal);
   }
-  return floor > FLOOR_SHARE * count;
+  return floor > FLOOR_SHARE * count && (built > AS_PLANES * count || built_share(cloud, up) > UPRIGHT);
 }
 
 /// The share of the free cells that are enclosed: is_room has the rule.
@@ -322,20 +342,16 @@ double enclosed_share(const Occupancy& space, const glm::dvec3& up) {
          std::max(1.0, static_cast<double>(places.size()));
 }
 
-/// Whether most of the surfaces are upright or level and some see out on neither side.
-bool is_furnished(const Cloud& cloud, const Occupancy& space, const glm::dvec3& up) {
+/// Whether some surfaces see out on neither side.
+bool is_furnished(const Cloud& cloud, const Occupancy& space) {
   constexpr std::size_t ASKED = 2048;
-  constexpr std::uint32_t RAYS = 12;
-  constexpr double LEVEL = 0.985, UPRIGHT = 0.17, BUILT = 0.5;  // within 10 degrees
-  constexpr std::uint32_t SEES_OUT = 4;                         // of the rays to one side
+  constexpr std::uint32_t RAYS = 12, SEES_OUT = 4;  // to one side
   constexpr double DEEP = 0.015;
   const std::size_t asked = std::min(ASKED, cloud.size());
-  std::vector<std::uint8_t> built(asked), deep(asked);
+  std::vector<std::uint8_t> deep(asked);
   tbb::parallel_for(std::size_t{0}, asked, [&](std::size_t n) {
     const std::size_t i = n * cloud.size() / asked;
     if (!cloud.on_surface(i)) return;
-    const double along = std::abs(glm::dot(glm::dvec3(cloud.normal[i]), up));
-    built[n] = along > LEVEL || along < UPRIGHT;
     const PointRays rays(cloud, i);
     deep[n] = 1;
     for (const double sign : {1.0, -1.0}) {
@@ -344,19 +360,16 @@ bool is_furnished(const Cloud& cloud, const Occupancy& space, const glm::dvec3& 
       if (out >= SEES_OUT) deep[n] = 0;
     }
   });
-  const auto share = [asked](const std::vector<std::uint8_t>& of) {
-    return static_cast<double>(std::count(of.begin(), of.end(), 1)) / static_cast<double>(asked);
-  };
-  return share(built) > BUILT && share(deep) > DEEP;
+  return static_cast<double>(std::count(deep.begin(), deep.end(), 1)) > DEEP * static_cast<double>(asked);
 }
 
 }  // namespace
 
 bool is_room(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
-  constexpr double ENCLOSED = 0.3;  // a ball in its box has half of it, on a plinth an eighth
+  constexpr double BUILT = 0.5, ENCLOSED = 0.3;  // a ball in its box has half of it, on a plinth an eighth
   if (is_bounded(cloud, survey, up)) return true;
   const Occupancy space(cloud, cell_edge(survey));
-  return enclosed_share(space, up) > ENCLOSED && is_furnished(cloud, space, up);
+  return built_share(cloud, up) > BUILT && enclosed_share(space, up) > ENCLOSED && is_furnished(cloud, space);
 }
 
 std::uint64_t turn_by_votes(Cloud& cloud, const Survey& survey, const glm::dvec3& up, const Stage& stage) {

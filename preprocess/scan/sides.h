@@ -34,8 +34,9 @@ SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<s
                          const glm::dvec3& up, const Stage& stage);
 
 /// Whether the cloud is of a room's inside. Much of it lies in walls, floors and ceilings, planes that all but few points are on one side
-/// of, and some of these look up, as floors do: a plinth, a car or a house from outside has tops and sides, and is not seen from below. Or, whatever stands in it and however many rooms there are,
-/// it encloses air, most of it is upright or level, and some of it is deep, without a side that sees out, as furniture and inner
+/// of, some of these look up, as floors do, and half of all is along or across them or three tenths upright or level: a plinth, a car or a
+/// house from outside has tops and sides, and is not seen from below, and a bust is round. Or, whatever stands in it and however many rooms
+/// there are, it encloses air, most of it is upright or level, and some of it is deep, without a side that sees out, as furniture and inner
 /// walls are. Air is enclosed where, of an even choice of free cells, three tenths meet points in 85 % of the directions about
 /// level, in 80 % of those up and of those down. `up` is unit. Normals must be known, but for their sides.
 [[nodiscard]] bool is_room(const Cloud& cloud, const Survey& survey, const glm::dvec3& up);

@@ -109,6 +109,24 @@ TEST(RoomSides, AStatueOfUnknownUpIsNoRoom) {
   }
 }
 
+/// A bust that was gone around and turned over: its base and its crown bound it as a floor and a ceiling do, but it is round.
+TEST(RoomSides, ABustWithAFlatCrownIsNoRoom) {
+  SeenPoints seen;
+  seen.add_ball({0.0, 0.0, 0.0}, 1.0, 20000);
+  const auto cut = [&](const glm::dvec3& normal, double away) {
+    for (std::size_t i = 0; i < seen.normal.size(); ++i) {
+      glm::dvec3& place = seen.points.position[i];
+      const double along = glm::dot(place, normal);
+      if (along < away) continue;
+      seen.normal[i] = normal;
+      place *= away / along;
+    }
+  };
+  cut({0.0, 0.0, -1.0}, 0.84);
+  cut({0.0, -0.3, std::sqrt(0.91)}, 0.78);
+  EXPECT_GT(right_sides(seen), 0.97);
+}
+
 /// A lid bounds a body as a ceiling does a room, but nothing does from below.
 TEST(RoomSides, ABodyWithAFlatTopIsNoRoom) {
   SeenPoints seen;
