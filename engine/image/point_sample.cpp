@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <numbers>
 
 #include "engine/base/rank.h"
+#include "engine/image/view.h"
 #include "engine/scene/scene_splat.h"
 
 namespace splatray {
@@ -17,6 +20,10 @@ constexpr double PART_CELLS = 32.0;   ///< along the longest side of what holds 
 constexpr double PART_OUTSIDE = 0.01;
 /// A part with less than 1 / SMALL_PART of the largest one's points is left out.
 constexpr std::size_t SMALL_PART = 10;
+constexpr double DEGREE = std::numbers::pi / 180.0;  ///< radians
+constexpr double CAMERA_DEG = 50.0, NARROW_DEG = 8.0, CAMERA_SHARE = 0.98;
+constexpr std::size_t FIELD_CELLS = 64;  ///< across the field, each way
+constexpr double BEHIND = 1.1, BEHIND_SHARE = 0.3, ALONG_Z_DEG = 20.0;
 
 /// Cells by their number along x, y and z.
 using Cell = std::array<std::int32_t, 3>;
@@ -62,6 +69,14 @@ class Parts {
 }  // namespace
 
 namespace {
+
+/// The mean direction from a place to the points.
+glm::dvec3 ahead_of(const PointSample& sample, const glm::dvec3& place) {
+  glm::dvec3 ahead(0.0);
+  for (const glm::dvec3& point : sample.position)
+    if (point != place) ahead += glm::normalize(point - place);
+  return glm::length(ahead) > 0.0 ? glm::normalize(ahead) : glm::dvec3(0.0, 0.0, 1.0);
+}
 
 PointSample every(std::size_t stride, const Scene& scene, const Region& region) {
   PointSample sample;
@@ -116,6 +131,12 @@ glm::dvec3 robust_size(const PointSample& sample, const glm::dmat3& axes) {
   return size;
 }
 
+bool is_flat(const PointSample& sample, const glm::dmat3& axes) {
+  constexpr double FLAT = 0.3;
+  const glm::dvec3 size = robust_size(sample, axes);
+  return size.y < FLAT * std::min(size.x, size.z);
+}
+
 glm::dvec3 mean_normal(const PointSample& sample) {
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& normal : sample.normal) mean += normal / static_cast<double>(sample.size());
@@ -154,6 +175,43 @@ PointSample main_parts(const PointSample& sample) {
     kept.normal.push_back(sample.normal[i]);
   }
   return kept;
+}
+
+bool is_seen_from(const PointSample& sample, const glm::dvec3& place) {
+  const glm::dvec3 ahead = ahead_of(sample, place);
+  const glm::dmat3 axes = upright_axes(ahead);
+  std::array<double, FIELD_CELLS * FIELD_CELLS> nearest;
+  nearest.fill(std::numeric_limits<double>::infinity());
+  const auto cell_of = [&](const glm::dvec3& point) {
+    const glm::dvec3 q = glm::transpose(axes) * (point - place);  // y is ahead
+    const double half = 0.5 * FIELD_CELLS, scale = half / std::tan(CAMERA_DEG * DEGREE);
+    const auto along = [&](double across) {
+      return static_cast<std::size_t>(std::clamp(half + scale * across / q.y, 0.0, FIELD_CELLS - 1.0));
+    };
+    return along(q.x) * FIELD_CELLS + along(q.z);
+  };
+  std::size_t wide = 0, narrow = 0, behind = 0;
+  for (const glm::dvec3& point : sample.position) {
+    const double distance = glm::distance(point, place), cosine = glm::dot(point - place, ahead) / distance;
+    if (!(cosine > std::cos(CAMERA_DEG * DEGREE))) continue;
+    ++wide;
+    if (cosine > std::cos(NARROW_DEG * DEGREE)) ++narrow;
+    double& first = nearest[cell_of(point)];
+    first = std::min(first, distance);
+  }
+  if (share_of(wide, sample.size()) < CAMERA_SHARE || share_of(narrow, sample.size()) > CAMERA_SHARE)
+    return false;
+  for (const glm::dvec3& point : sample.position)
+    if (glm::dot(point - place, ahead) > 0.0 &&
+        glm::distance(point, place) > BEHIND * nearest[cell_of(point)])
+      ++behind;
+  return share_of(behind, sample.size()) < BEHIND_SHARE;
+}
+
+bool is_seen_along_z(const PointSample& sample, const glm::dvec3& up) {
+  const bool terrain = up == glm::dvec3(0.0, 0.0, 1.0) && is_flat(sample, upright_axes(up));
+  const glm::dvec3 ahead = ahead_of(sample, glm::dvec3(0.0));
+  return !terrain && ahead.z > std::cos(ALONG_Z_DEG * DEGREE) && is_seen_from(sample, glm::dvec3(0.0));
 }
 
 }  // namespace splatray

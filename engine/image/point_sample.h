@@ -32,6 +32,16 @@ struct PointSample {
 
 /// The size along each of three axes, without a hundredth of the points at each end.
 [[nodiscard]] glm::dvec3 robust_size(const PointSample& sample, const glm::dmat3& axes);
+/// Whether points are less than 0.3 times as high, along the second of three axes, as wide (robust_size).
+[[nodiscard]] bool is_flat(const PointSample& sample, const glm::dmat3& axes);
+/// Whether 98 % of the points lie within 50 degrees of one direction from a place, as in a camera's field, but not within 8, and seven
+/// tenths have no other 10 % closer before them: four depth cameras' points have it for 0.19 to 0.26, sweeps and things for 0.32 and more.
+[[nodiscard]] bool is_seen_from(const PointSample& sample, const glm::dvec3& place);
+
+/// Whether all was seen from the origin along z: the frame of a depth camera. What lies flat where `up`, its format's, is z is none:
+/// terrain in local coordinates, high above their zero.
+[[nodiscard]] bool is_seen_along_z(const PointSample& sample, const glm::dvec3& up);
+
 /// The mean of the normals; shorter than 1 the more they differ.
 [[nodiscard]] glm::dvec3 mean_normal(const PointSample& sample);
 /// One number over another; 0 over 0.

@@ -14,11 +14,9 @@ namespace splatray {
 namespace {
 
 constexpr double RADIAN = std::numbers::pi / 180.0;  ///< in a degree
-constexpr double CAMERA_DEG = 50.0, NARROW_DEG = 8.0, CAMERA_SHARE = 0.98;
-constexpr std::size_t SIGHT_CELLS = 64;  ///< across the field, each way
-constexpr double BEHIND = 1.1, BEHIND_SHARE = 0.25, ALONG_Z_DEG = 20.0;
-constexpr double LOOKING_DOWN = -0.3;  ///< mean of the normals' z
-constexpr double NEAR_ORIGIN = 5.0;    ///< times the size
+constexpr std::size_t SIGHT_CELLS = 64;              ///< across the field, each way
+constexpr double LOOKING_DOWN = -0.3;                ///< mean of the normals' z
+constexpr double NEAR_ORIGIN = 5.0;                  ///< times the size
 constexpr double LAYER = 0.15, LAYER_SHARE = 0.1;
 constexpr std::size_t SECTORS = 12;
 constexpr std::size_t OVERHEAD_BANDS = 2;
@@ -27,7 +25,6 @@ constexpr std::size_t FEW_POINTS = 3;         ///< fewer in a part of the direct
 constexpr double LEVEL_DEG = 30.0, OVERHEAD_DEG = 45.0, STEEP_DEG = 60.0;
 constexpr double FACING_SHARE = 0.6;   ///< of a room's normals, which face in
 constexpr double SIZE_OUTSIDE = 0.01;  ///< share of the points at each end that the middle does not see
-constexpr double FLAT = 0.3;           ///< height over width
 constexpr double SWEEP_NEAR = 0.6, SWEEP_REACH = 0.9;
 /// Seven sweeps have half of their points in 0.14 to 0.38 of their cells, a dozen things that were sampled evenly in 0.52 to 0.63.
 constexpr double SWEEP_CELLS = 16.0, SWEEP_CELLS_NEAR = 0.45;
@@ -46,52 +43,6 @@ glm::dvec3 robust_middle(const PointSample& sample, const glm::dmat3& axes) {
 std::size_t sector_of(const glm::dvec3& upright) {
   const double turn = (std::atan2(upright.z, upright.x) / std::numbers::pi + 1.0) / 2.0;
   return std::min(static_cast<std::size_t>(turn * SECTORS), SECTORS - 1);
-}
-
-/// The mean direction from a place to the points.
-glm::dvec3 ahead_of(const PointSample& sample, const glm::dvec3& place) {
-  glm::dvec3 ahead(0.0);
-  for (const glm::dvec3& point : sample.position)
-    if (point != place) ahead += glm::normalize(point - place);
-  return glm::length(ahead) > 0.0 ? glm::normalize(ahead) : glm::dvec3(0.0, 0.0, 1.0);
-}
-
-/// Whether all lies before a place within a field of a camera's width, and little of it behind something else.
-bool is_seen_from(const PointSample& sample, const glm::dvec3& place) {
-  const glm::dvec3 ahead = ahead_of(sample, place);
-  const glm::dmat3 axes = upright_axes(ahead);
-  std::array<double, SIGHT_CELLS * SIGHT_CELLS> nearest;
-  nearest.fill(std::numeric_limits<double>::infinity());
-  const auto cell_of = [&](const glm::dvec3& point) {
-    const glm::dvec3 q = glm::transpose(axes) * (point - place);  // y is ahead
-    const double half = 0.5 * SIGHT_CELLS, scale = half / std::tan(CAMERA_DEG * RADIAN);
-    const auto along = [&](double across) {
-      return static_cast<std::size_t>(std::clamp(half + scale * across / q.y, 0.0, SIGHT_CELLS - 1.0));
-    };
-    return along(q.x) * SIGHT_CELLS + along(q.z);
-  };
-  std::size_t wide = 0, narrow = 0, behind = 0;
-  for (const glm::dvec3& point : sample.position) {
-    const double distance = glm::distance(point, place), cosine = glm::dot(point - place, ahead) / distance;
-    if (!(cosine > std::cos(CAMERA_DEG * RADIAN))) continue;
-    ++wide;
-    if (cosine > std::cos(NARROW_DEG * RADIAN)) ++narrow;
-    double& first = nearest[cell_of(point)];
-    first = std::min(first, distance);
-  }
-  if (share_of(wide, sample.size()) < CAMERA_SHARE || share_of(narrow, sample.size()) > CAMERA_SHARE)
-    return false;
-  for (const glm::dvec3& point : sample.position)
-    if (glm::dot(point - place, ahead) > 0.0 &&
-        glm::distance(point, place) > BEHIND * nearest[cell_of(point)])
-      ++behind;
-  return share_of(behind, sample.size()) < BEHIND_SHARE;
-}
-
-/// Whether all was seen from the origin, along z.
-bool is_seen_along_z(const PointSample& sample) {
-  const glm::dvec3 ahead = ahead_of(sample, glm::dvec3(0.0));
-  return ahead.z > std::cos(ALONG_Z_DEG * RADIAN) && is_seen_from(sample, glm::dvec3(0.0));
 }
 
 /// Whether most normals turn to a place, of what is overhead there as well: ground above a place is no ceiling.
@@ -208,14 +159,14 @@ std::optional<glm::dvec3> first_sensor(const Scene& scene) {
 
 bool is_camera_frame(const Scene& scene, const PointSample& sample) {
   if (scene.stations.size() != 1 || scene.stations.front().sensor_world || sample.size() == 0) return false;
-  return is_seen_along_z(sample) || is_layer_that_looks_down(sample);
+  return is_seen_along_z(sample, scene.up) || is_layer_that_looks_down(sample);
 }
 
 std::optional<glm::dvec3> seeing_place(const Scene& scene, const PointSample& sample) {
   if (scene.stations.size() != 1) return {};
   const std::optional<glm::dvec3> sensor = scene.stations.front().sensor_world;
   if (sensor) return is_seen_from(sample, *sensor) ? sensor : std::nullopt;
-  return is_seen_along_z(sample) ? std::optional(glm::dvec3(0.0)) : std::nullopt;
+  return is_seen_along_z(sample, scene.up) ? std::optional(glm::dvec3(0.0)) : std::nullopt;
 }
 
 bool is_within(const PointSample& sample, const glm::dvec3& place, const glm::dmat3& axes) {
@@ -263,8 +214,7 @@ SceneKind kind_of_scan(const Scene& scene) {
   const glm::dmat3 axes = upright_axes(scene.up);
   if (is_room(scene, sample, axes)) return SceneKind::room;
   if (is_sweep(scene, all, axes)) return SceneKind::sweep;
-  const glm::dvec3 size = robust_size(sample, axes);
-  return size.y < FLAT * std::min(size.x, size.z) ? SceneKind::site : SceneKind::object;
+  return is_flat(sample, axes) ? SceneKind::site : SceneKind::object;
 }
 
 }  // namespace splatray

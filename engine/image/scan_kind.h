@@ -38,12 +38,11 @@ enum class SceneKind {
 [[nodiscard]] bool is_built(const PointSample& sample, const glm::dmat3& axes);
 
 /// Whether a scan without a known place is in the frame of a camera, x to the right, y down and z ahead: it was seen
-/// from the origin (as seeing_place has it) along z; or it has one layer along z, near the origin, whose normals look
+/// from the origin along z (is_seen_along_z); or it has one layer along z, near the origin, whose normals look
 /// to -z on the mean, by more than 0.3: no scan from above or around does.
 [[nodiscard]] bool is_camera_frame(const Scene& scene, const PointSample& sample);
 /// The one place from which all was seen, where there is such a place: that of the only station, or the origin of a
-/// camera's frame, if 98 % of the points lie within 50 degrees of one direction, but not within 8, and three quarters
-/// have no other 10 % closer before them.
+/// camera's frame, if all was (is_seen_from).
 [[nodiscard]] std::optional<glm::dvec3> seeing_place(const Scene& scene, const PointSample& sample);
 /// Whether points surround a place on all sides and above: in 12 of 12 sectors of azimuth some lie
 /// within 30 degrees of level, and in 18 of 24 parts of equal area of the sky above 45 degrees. Not by shares of all

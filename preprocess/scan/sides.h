@@ -13,7 +13,7 @@ namespace splatray {
 /// What decided the sides, best first.
 enum class SideRung : std::uint8_t {
   given,   ///< the input's own normals
-  sensor,  ///< the scanner's place, given or found from its rings or from a room's density
+  sensor,  ///< the scanner's place, given or found: by its rings, a camera's frame, a room's density
   track,   ///< the aircraft's, from its pulses
   up,      ///< terrain and other sheets
   votes    ///< of rays: nothing is known

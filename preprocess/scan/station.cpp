@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/release.h"
+#include "engine/image/point_sample.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
 #include "preprocess/scan/occupancy.h"
@@ -134,6 +135,16 @@ std::vector<Candidate> first_candidates(std::span<const Patch> patches, const Oc
   return candidates;
 }
 
+/// Whether all was seen from the world's origin, as a depth camera's frame has it.
+bool is_in_camera_frame(const Cloud& cloud, const glm::dvec3& up) {
+  constexpr std::size_t MOST = 1U << 16;
+  if (cloud.stations.size() > 1) return false;
+  PointSample sample;
+  for (std::size_t i = 0; i < cloud.size(); i += cloud.size() / MOST + 1)
+    sample.position.push_back(cloud.place_world(i));
+  return is_seen_along_z(sample, up);
+}
+
 }  // namespace
 
 std::optional<StationFound> find_scanner_place(const Cloud& cloud, const Survey& survey) {
@@ -163,6 +174,7 @@ double find_station(Cloud& cloud, const Survey& survey, const std::vector<LinePl
   if (known) return 0.0;
   std::optional<glm::dvec3> sensor;
   if (!lines.empty()) sensor = find_spinning_sensor(cloud, lines);
+  if (!sensor && is_in_camera_frame(cloud, up)) sensor = -cloud.center_world / cloud.half_extent_world;
   double explained = 0.0;
   const bool asked = !sensor && cloud.track.empty() && !survey.flatness.empty();
   if (asked && is_room(cloud, survey, up)) {

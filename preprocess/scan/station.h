@@ -24,8 +24,8 @@ struct StationFound {
 /// from several places, and of those that were thinned evenly.
 [[nodiscard]] std::optional<StationFound> find_scanner_place(const Cloud& cloud, const Survey& survey);
 
-/// Gives a cloud of which no scanner's place is known a station at the one that its rings show (find_spinning_sensor) or, of a room, how
-/// dense its points are. Returns StationFound::explained of the latter, else 0.
+/// Gives a cloud of which no scanner's place is known a station at the one that its rings show (find_spinning_sensor), at the origin of
+/// a depth camera's frame (is_seen_along_z) or, of a room, where it explains how dense its points are. Returns StationFound::explained of the latter, else 0.
 double find_station(Cloud& cloud, const Survey& survey, const std::vector<LinePlace>& lines,
                     const glm::dvec3& up);
 

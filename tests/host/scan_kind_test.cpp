@@ -198,6 +198,7 @@ TEST(SceneKind, ACamerasFrameIsKnownByItsOrigin) {
       wall.emplace_back(glm::dvec3(0.02 * (x - 30), 0.02 * (y - 30), 2.0 + 0.005 * x),
                         glm::dvec3(0, 0, x % 2 == 0 ? 1 : -1));
   Scene scene = scan_scene(wall);
+  scene.up = {0.0, 1.0, 0.0};
   EXPECT_EQ(kind_of_scan(scene), SceneKind::camera);
   EXPECT_EQ(upright(scene).up, glm::dvec3(0, -1, 0));
   EXPECT_EQ(seeing_place(scene, sample_points(scene)), glm::dvec3(0.0));
@@ -210,6 +211,15 @@ TEST(SceneKind, ACamerasFrameIsKnownByItsOrigin) {
   for (auto& [position, normal] : wall) normal.z = -1.0;
   EXPECT_EQ(upright(scan_scene(wall)).up, glm::dvec3(0, -1, 0))
       << "it faces down, as only a camera's frame can";
+}
+
+/// Ground in local coordinates, 80 m above their zero: the origin sees all of it from below.
+TEST(SceneKind, TerrainAboveItsDatumIsNoCamerasView) {
+  OrientedPoints hill = ground(false);
+  for (auto& [position, normal] : hill) position.z += 80.0;
+  const Scene scene = scan_scene(hill);
+  EXPECT_EQ(kind_of_scan(scene), SceneKind::site);
+  EXPECT_EQ(upright(scene).up, glm::dvec3(0, 0, 1));
 }
 
 TEST(Upright, ThingsStandOnTheirFlatEnd) {

@@ -1,4 +1,4 @@
-// Where a scanner stood in a room, by how dense its points are.
+// Where a scanner stood: in a room by how dense its points are, in a depth camera's frame.
 #include "preprocess/scan/station.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 
+#include "engine/scene/scene_splat.h"
 #include "preprocess/build_stats.h"
 #include "preprocess/scan/sides.h"
 #include "preprocess/surface/cloud.h"
@@ -95,6 +96,24 @@ TEST(FoundStation, DecidesTheSidesOfARoom) {
   const BuiltScan even = build_scan(even_room());
   EXPECT_EQ(even.stats.station_explained, 0.0);
   EXPECT_EQ(even.stats.sides_by[static_cast<std::size_t>(SideRung::votes)], 1U);
+}
+
+/// A table before a wall, seen from the origin along z; votes of rays take it for whatever lies around more room.
+TEST(FoundStation, IsTheOriginOfADepthCamerasFrame) {
+  Points seen;
+  for (int row = 0; row < 120; ++row)
+    for (int column = 0; column < 160; ++column) {
+      const glm::dvec3 dir(0.004 * (column - 80), 0.004 * (row - 60), 1.0);
+      const double to_table = dir.y > 0.0 ? 0.4 / dir.y : INFINITY;
+      seen.position.push_back(std::min(3.0 + 0.3 * dir.x, to_table) * dir);
+    }
+  const BuiltScan built = build_scan(seen, {}, 0, std::nullopt);
+  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 1U);
+  std::size_t facing = 0;
+  for_each_splat(built.scene, [&](std::size_t, const SceneSplat& splat) {
+    facing += glm::dot(splat.normal(), splat.center_world()) < 0.0 ? 1 : 0;
+  });
+  EXPECT_GT(facing, 0.99 * static_cast<double>(splat_count(built.scene)));
 }
 
 }  // namespace
