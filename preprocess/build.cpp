@@ -171,7 +171,10 @@ PointSample sample_of(const std::vector<Cloud>& clouds) {
 glm::dvec3 up_of_scans(const std::vector<Cloud>& clouds, const Scene& scene, bool up_said) {
   const bool measured =
       std::any_of(clouds.begin(), clouds.end(), [](const Cloud& cloud) { return cloud.measured; });
-  return measured && !up_said ? upright_places(main_parts(sample_of(clouds))).up : glm::normalize(scene.up);
+  const bool placed = std::any_of(scene.stations.begin(), scene.stations.end(),
+                                  [](const Station& station) { return station.sensor_world.has_value(); });
+  return measured && !up_said ? upright_places(main_parts(sample_of(clouds)), placed).up
+                              : glm::normalize(scene.up);
 }
 
 /// Which way a model stands whose format does not say. A scan's is found where it is shown, by its stations and its kind.

@@ -186,8 +186,7 @@ bool is_within(const PointSample& sample, const glm::dvec3& place, const glm::dm
          std::count_if(overhead.begin(), overhead.end(), seen) >= OVERHEAD_SEEN;
 }
 
-bool is_sweep(const Scene& scene, const PointSample& sample, const glm::dmat3& axes) {
-  const glm::dvec3 place = first_sensor(scene).value_or(glm::dvec3(0.0));
+bool is_sweep(const PointSample& sample, const glm::dvec3& place, const glm::dmat3& axes) {
   return sectors_around(sample, place, axes, STEEP_DEG) == SECTORS && is_crowded(sample, place);
 }
 
@@ -213,7 +212,7 @@ SceneKind kind_of_scan(const Scene& scene) {
   const PointSample sample = main_parts(all);
   const glm::dmat3 axes = upright_axes(scene.up);
   if (is_room(scene, sample, axes)) return SceneKind::room;
-  if (is_sweep(scene, all, axes)) return SceneKind::sweep;
+  if (is_sweep(all, first_sensor(scene).value_or(glm::dvec3(0.0)), axes)) return SceneKind::sweep;
   return is_flat(sample, axes) ? SceneKind::site : SceneKind::object;
 }
 

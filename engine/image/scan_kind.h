@@ -49,9 +49,8 @@ enum class SceneKind {
 /// points: of a room that was thinned out evenly 2 % may lie that high, of the same as scanned 30 %. `axes` as
 /// upright_axes has them.
 [[nodiscard]] bool is_within(const PointSample& sample, const glm::dvec3& place, const glm::dmat3& axes);
-/// Whether points lie all around a station or, where no place is known, the origin, in 12 of 12 sectors of azimuth, and
-/// crowd about it.
-[[nodiscard]] bool is_sweep(const Scene& scene, const PointSample& sample, const glm::dmat3& axes);
+/// Whether points lie all around a place in 12 of 12 sectors of azimuth, and crowd about it.
+[[nodiscard]] bool is_sweep(const PointSample& sample, const glm::dvec3& place, const glm::dmat3& axes);
 /// The first station in free space with points all around and overhead.
 [[nodiscard]] std::optional<glm::dvec3> station_within(const Scene& scene, const PointSample& sample);
 /// Where the scene's first station with a known place is.

@@ -73,16 +73,15 @@ std::optional<UpFound> up_of_ring(const Scene& scene, const PointSample& sample)
   return UpFound{signed_axis(mean_normal(sample)[*axis] < 0.0 ? *axis + 3 : *axis), UpEvidence::ring};
 }
 
-/// Up of a sweep without a known place.
-std::optional<UpFound> up_of_sweep(const Scene& scene, const PointSample& sample) {
-  if (first_sensor(scene)) return {};
+/// Up of a sweep about the origin.
+std::optional<UpFound> up_of_sweep(const PointSample& sample, const glm::dvec3& promised) {
   const glm::dvec3 size = robust_size(sample, glm::dmat3(1.0));
   for (int axis = 0; axis < 3; ++axis) {
     const double thin = size[axis] / std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]);
     if (!(thin < THIN)) continue;
-    const bool own = std::abs(scene.up[axis]) > 0.5 * glm::length(scene.up);
-    const glm::dvec3 up = own ? scene.up : signed_axis(axis);
-    if (is_sweep(scene, sample, upright_axes(up))) return UpFound{up, UpEvidence::sweep, thin};
+    const bool own = std::abs(promised[axis]) > 0.5 * glm::length(promised);
+    const glm::dvec3 up = own ? promised : signed_axis(axis);
+    if (is_sweep(sample, glm::dvec3(0.0), upright_axes(up))) return UpFound{up, UpEvidence::sweep, thin};
   }
   return {};
 }
@@ -185,7 +184,7 @@ UpFound up_of_base(const Scene& scene, const PointSample& sample, bool room) {
   for (int number = 0; number < 6; ++number) {
     const glm::dvec3 up = signed_axis(number), size = robust_size(sample, upright_axes(up));
     const bool flat = size.y < WALL * std::min(size.x, size.z);
-    if (is_opposite(up, scene) || (flat && !room)) continue;
+    if (is_opposite(up, scene) || up.z < 0.0 || (flat && !room)) continue;
     const double share = base_share(sample, up);
     if (share <= most) continue;
     most = share;
@@ -242,8 +241,10 @@ std::optional<UpFound> up_of_survey(const PointSample& sample) {
   return flat < TERRAIN && !ahead ? std::optional(UpFound{z, UpEvidence::sheet, flat}) : std::nullopt;
 }
 
-UpFound upright_places(const PointSample& sample) {
+UpFound upright_places(const PointSample& sample, bool place_known) {
   const glm::dvec3 own(0.0, 1.0, 0.0);
+  if (!place_known)
+    if (const auto up = up_of_sweep(sample, own)) return *up;
   if (const auto up = up_of_survey(sample)) return *up;
   return up_of_feet(own, sample).value_or(UpFound{own});
 }
@@ -254,7 +255,7 @@ UpFound upright(const Scene& scene) {
   const PointSample all = sample_points(scene), sample = main_parts(all);
   if (is_camera_frame(scene, all)) return {{0.0, -1.0, 0.0}, UpEvidence::camera};
   if (const auto up = up_of_ring(scene, sample)) return *up;
-  if (const auto up = up_of_sweep(scene, all)) return *up;
+  if (const auto up = up_of_sweep(all, scene.up); up && !first_sensor(scene)) return *up;
   if (scene.up == glm::dvec3(0.0, 1.0, 0.0))
     if (const auto up = up_of_survey(all)) return *up;
   if (kind != SceneKind::object && kind != SceneKind::room) return {scene.up};

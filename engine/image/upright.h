@@ -46,14 +46,14 @@ struct UpFound {
 ///   mean, by 0.06 to 0.25, three times as much as to any other.
 /// - Things stand on what is flat: of a room or an object up is the axis at whose lower end, within 3 % of the height,
 ///   most points lie with normals within 15 degrees of it, 3 % of all and three times as many as at the lower end of
-///   the scene's own; not one along which an object is flat, as a wall is no floor.
+///   the scene's own; not one along which an object is flat, as a wall is no floor, and not -z: no program has z down.
 /// By the last three nothing is stood on its head: scans lie on their backs, but hardly any hangs from a ceiling; sides that
 /// are found by votes may be wrong, and a room's ceiling is larger than what furniture leaves of its floor.
 [[nodiscard]] UpFound upright(const Scene& scene);
 
-/// Up of a scan of which nothing is said, by its places alone: z where up_of_survey or stands_on says so, as above, else y. Normals,
-/// of which no side is known yet, are not looked at.
-[[nodiscard]] UpFound upright_places(const PointSample& sample);
+/// Up of a scan of which nothing is said, by its places alone: that of a sweep about the origin, unless the places of scanners are known, z
+/// where up_of_survey or stands_on says so, as above, else y. Normals, of which no side is known yet, are not looked at.
+[[nodiscard]] UpFound upright_places(const PointSample& sample, bool place_known);
 
 /// The up direction of a model whose format says none: y, which most programs write, but z, which is the others', where the model
 /// plainly stands on that end (stands_on) and not on the other.

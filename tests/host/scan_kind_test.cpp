@@ -298,19 +298,48 @@ PointSample terrain_around(const glm::dvec3& middle, double height) {
 
 TEST(Upright, TerrainAndSurveysHaveZUpWhereNothingIsSaid) {
   const glm::dvec3 y(0, 1, 0), z(0, 0, 1);
-  const UpFound low = upright_places(terrain_around({-40.0, -30.0, -2.0}, 10.0));
+  const UpFound low = upright_places(terrain_around({-40.0, -30.0, -2.0}, 10.0), false);
   EXPECT_EQ(low.up, z);
   EXPECT_EQ(low.by, UpEvidence::sheet);
   EXPECT_NEAR(low.figure, 10.0 / 80.0, 0.01);
-  EXPECT_EQ(upright_places(terrain_around({-40.0, -30.0, -2.0}, 60.0)).up, y) << "as high as wide";
-  EXPECT_EQ(upright_places(terrain_around({-40.0, -30.0, 90.0}, 10.0)).up, y)
+  EXPECT_EQ(upright_places(terrain_around({-40.0, -30.0, -2.0}, 60.0), false).up, y) << "as high as wide";
+  EXPECT_EQ(upright_places(terrain_around({-40.0, -30.0, 90.0}, 10.0), false).up, y)
       << "a range finder may look along z";
-  const UpFound far = upright_places(terrain_around({4.5e5, 5.4e6, 300.0}, 60.0));
+  const UpFound far = upright_places(terrain_around({4.5e5, 5.4e6, 300.0}, 60.0), false);
   EXPECT_EQ(far.up, z);
   EXPECT_EQ(far.by, UpEvidence::survey);
   EXPECT_GT(far.figure, 1e4);
-  EXPECT_EQ(upright_places(terrain_around({4.5e3, 5.4e3, 300.0}, 60.0)).up, y) << "millimetres of a machine";
-  EXPECT_EQ(upright_places({}).up, y);
+  EXPECT_EQ(upright_places(terrain_around({4.5e3, 5.4e3, 300.0}, 60.0), false).up, y)
+      << "millimetres of a machine";
+  EXPECT_EQ(upright_places({}, false).up, y);
+}
+
+/// A hollow of 96 m, 37 m deep, whose points crowd about the scanner at its bottom.
+TEST(Upright, ASweepOfWhichNothingIsSaidStandsAcrossItsWidth) {
+  OrientedPoints hollow = ground(true);
+  for (auto& [position, normal] : hollow) position = {position.x, position.z * -5.0 + 20.0, position.y};
+  for (int axis = 0; axis < 3; ++axis) {
+    PointSample sample;
+    glm::dvec3 up(0.0);
+    up[(1 + axis) % 3] = 1.0;
+    for (const auto& [p, normal] : hollow)
+      sample.position.emplace_back(p[(3 - axis) % 3], p[(4 - axis) % 3], p[(5 - axis) % 3]);
+    EXPECT_EQ(upright_places(sample, false).up, up);
+  }
+}
+
+/// More of its ceiling was seen than of its floor, and little of two walls.
+TEST(Upright, ARoomHangsFromNoCeiling) {
+  OrientedPoints room;
+  int walls = 0;
+  for (const auto& point : box_points({4.0, 5.0, 3.0}, true)) {
+    if (std::abs(point.second.y) > 0.5 && ++walls % 4 != 0) continue;
+    room.insert(room.end(), point.second.z < -0.5 ? 4 : point.second.z > 0.5 ? 2 : 1, point);
+  }
+  Scene scene = scan_scene(room);
+  scene.up = {0.0, 1.0, 0.0};
+  ASSERT_EQ(kind_of_scan(scene), SceneKind::room);
+  EXPECT_EQ(upright(scene).up, glm::dvec3(0, 0, 1));
 }
 
 TEST(Upright, SaysWhatDecided) {
