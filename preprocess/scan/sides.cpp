@@ -81,6 +81,11 @@ std::string_view name_of(SideRung rung) {
   return NAMES[static_cast<std::size_t>(rung)];
 }
 
+std::optional<glm::dvec3> open_sheet_axis(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
+  const std::optional<glm::dvec3> axis = sheet_axis(cloud, up);
+  return axis && !has_layers(cloud, survey, *axis) ? axis : std::nullopt;
+}
+
 SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& estimated,
                          const glm::dvec3& up, const Stage& stage) {
   if (estimated.empty()) return {SideRung::given};
@@ -100,7 +105,7 @@ SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<s
                  [&](std::uint32_t i) { return std::optional(in_cloud(track.at(time.number(i)))); });
     return {.rung = SideRung::track, .terrain = true};
   }
-  if (const auto axis = sheet_axis(cloud, up); axis && !has_layers(cloud, survey, *axis)) {
+  if (const auto axis = open_sheet_axis(cloud, survey, up)) {
     turn_up(cloud, estimated, *axis);
     return {.rung = SideRung::up, .terrain = glm::dot(*axis, up) > LEVEL};
   }

@@ -1,6 +1,7 @@
 /// Which of its two sides each estimated normal points to.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace splatray {
 /// What decided the sides, best first.
 enum class SideRung : std::uint8_t {
   given,   ///< the input's own normals
-  sensor,  ///< the scanner's place, given or found: by its rings, a camera's frame, a room's density
+  sensor,  ///< the scanner's place, given or found: by its rings, a camera's frame, how dense points are
   track,   ///< the aircraft's, from its pulses
   up,      ///< terrain and other sheets
   votes    ///< of rays: nothing is known
@@ -27,6 +28,11 @@ struct SidesFound {
   std::uint64_t unsure = 0;  ///< points whose side had less than two thirds of the votes
   bool terrain = false;      ///< a sheet that is seen from above
 };
+
+/// The axis of a sheet, on the side of `up`, that has nothing above or below most of itself, as terrain and a wall have not and a cave or
+/// a room has; nothing for what is no such sheet.
+[[nodiscard]] std::optional<glm::dvec3> open_sheet_axis(const Cloud& cloud, const Survey& survey,
+                                                        const glm::dvec3& up);
 
 /// Turns the normals of the points of `estimated` numbers (ascending) by the first of the rungs that has data; with none of them it
 /// is `given`.

@@ -20,6 +20,8 @@ constexpr std::size_t LOOKED_AROUND = 6;  ///< places that are looked around
 constexpr double ALIKE = 0.35;            ///< natural logarithms of densities, to both sides
 constexpr double SEEN_COSINE = 0.1;       ///< flatter sights say nothing of density
 constexpr double EXPLAINED = 0.5, GAIN = 0.2;
+/// Scans from one place have 0.17 to 0.47, what was gone around 0.7 and more.
+constexpr double TOO_EVEN = 0.6;
 constexpr double FINEST_MOVE = 1e-3;  ///< cloud coordinates
 
 /// A flat part of the surface.
@@ -153,8 +155,10 @@ std::optional<StationFound> find_scanner_place(const Cloud& cloud, const Survey&
   std::vector<double> densities;
   for (const Patch& patch : patches) densities.push_back(patch.density);
   const double even = share_alike(densities, patches.size());
+  if (even > TOO_EVEN) return {};
   const Occupancy space(cloud, cell_edge(survey));
   std::vector<Candidate> candidates = first_candidates(patches, space);
+  if (candidates.empty() || candidates.front().explained < even + 0.5 * GAIN) return {};
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t n) {
     Candidate& candidate = candidates[n];
     candidate = settled(patches, candidate, 2.0 / std::cbrt(double(START_PLACES)));
@@ -177,7 +181,7 @@ double find_station(Cloud& cloud, const Survey& survey, const std::vector<LinePl
   if (!sensor && is_in_camera_frame(cloud, up)) sensor = -cloud.center_world / cloud.half_extent_world;
   double explained = 0.0;
   const bool asked = !sensor && cloud.track.empty() && !survey.flatness.empty();
-  if (asked && is_room(cloud, survey, up)) {
+  if (asked && (!open_sheet_axis(cloud, survey, up) || is_room(cloud, survey, up))) {
     if (const auto found = find_scanner_place(cloud, survey)) {
       sensor = found->sensor;
       explained = found->explained;

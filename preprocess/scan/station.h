@@ -21,11 +21,12 @@ struct StationFound {
 /// with the inverse sine from that (Soudarissanane et al. 2011, "Scanning geometry: Influencing factor on the quality of terrestrial
 /// laser scanning points", section 3). Of flat patches those are explained that lie within 0.35 of one constant, in natural logarithms,
 /// and in free sight. It must explain half of them, and a fifth of all more than one density everywhere does: nothing is found of scans
-/// from several places, and of those that were thinned evenly.
+/// from several places, of those that were thinned evenly, and where one density explains more than 0.6.
 [[nodiscard]] std::optional<StationFound> find_scanner_place(const Cloud& cloud, const Survey& survey);
 
 /// Gives a cloud of which no scanner's place is known a station at the one that its rings show (find_spinning_sensor), at the origin of
-/// a depth camera's frame (is_seen_along_z) or, of a room, where it explains how dense its points are. Returns StationFound::explained of the latter, else 0.
+/// a depth camera's frame (is_seen_along_z) or, of rooms and of all that is no open sheet, where it explains how dense the points are.
+/// Returns StationFound::explained of the latter, else 0.
 double find_station(Cloud& cloud, const Survey& survey, const std::vector<LinePlace>& lines,
                     const glm::dvec3& up);
 
