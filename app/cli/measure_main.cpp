@@ -107,7 +107,7 @@ std::optional<Asked> parse(int argc, char** argv) {
       "splatray-measure");
   GivenFields given;
   Asked asked;
-  add_fields(list, DOOR_RENDER, "SCENE", given, {FieldGroup::input, FieldGroup::region});
+  add_fields(list, DOOR_RENDER, "SCENE", given, {FieldGroup::input, FieldGroup::region}, {"up"});
   add_measures(list, asked.measures);
   add_unit(list, asked.unit_metres);
   list.set_group("Files");

@@ -23,9 +23,11 @@ void add_option(OptionList& list, const Field& field, const std::string& name, G
 }  // namespace
 
 void add_fields(OptionList& list, FieldDoors door, const std::string& inputs, GivenFields& given,
-                const std::vector<FieldGroup>& groups) {
+                const std::vector<FieldGroup>& groups, const std::vector<std::string>& names) {
   for (const Field& field : fields()) {
-    const bool asked = groups.empty() || std::find(groups.begin(), groups.end(), field.group) != groups.end();
+    const bool asked = groups.empty() ||
+                       std::find(groups.begin(), groups.end(), field.group) != groups.end() ||
+                       std::find(names.begin(), names.end(), field.name) != names.end();
     if (!asked || !field.in(door)) continue;
     list.set_group(group_title(field.group));
     const std::string dashed = "--" + field.name;

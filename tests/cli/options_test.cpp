@@ -118,6 +118,20 @@ TEST_F(CliOptions, EmptyValuesAreEmpty) {
   expect_refused([&] { return preprocess({"--columns=", "--output=", grid}); }, 2, "found output ''");
 }
 
+TEST_F(CliOptions, MeasuresTakeAnUpDirection) {
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 400; ++i) points += std::to_string(i % 20) + ',' + std::to_string(i / 20) + ",5\n";
+  const std::string scan = write("scan.csv", points);
+  const auto vertical = [&](const std::string& up) {
+    const ChildResult result =
+        run_program({MEASURE, scan, "--unit=m", "--vertical=2,3,5;12,7,5", "--up=" + up});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_NE(vertical("1,0,0").find("vertical\tvertical\t10.0"), std::string::npos) << vertical("1,0,0");
+  EXPECT_NE(vertical("0,1,0").find("vertical\tvertical\t4.0"), std::string::npos) << vertical("0,1,0");
+}
+
 TEST_F(CliOptions, HelpAndVersion) {
   for (const char* option : {"--help", "--version"}) {
     const ChildResult result = run_program({RENDER, option});
