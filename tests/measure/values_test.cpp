@@ -322,6 +322,30 @@ TEST(SurfacePoint, IsRefusedFarFromThePlace) {
   }
 }
 
+TEST(Areas, OfOutlinesThatCrossThemselvesAreRefused) {
+  const auto measured = [](const std::vector<glm::dvec3>& places) {
+    GivenMeasure given{MeasureKind::area, {}};
+    for (const glm::dvec3& place : places) given.places.push_back({glm::normalize(place), {}});
+    return values_of(take_measure(ball(), {}, given, nullptr), UP)[0].value;
+  };
+  const glm::dvec3 a(1, 0.3, 0.3), b(1, -0.3, 0.3), c(1, -0.3, -0.3), d(1, 0.3, -0.3);
+  EXPECT_NEAR(measured({a, b, c, d}), 4.0 * 0.09 / 1.18, 0.01);
+  EXPECT_NEAR(measured({d, c, b, a}), 4.0 * 0.09 / 1.18, 0.01);
+  EXPECT_NO_THROW((void)measured({a, a, b, c}));
+  try {
+    (void)measured({a, b, d, c});
+    ADD_FAILURE() << "it has no inside";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("from place 2 to 3 crosses that from 4 to 1"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Values, AnAngleIsNoMoreUnknownThanAllAngles) {
+  const SurfacePoint here{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.01}}, there{{1.0, 0.0, 0.0}, {0.0, 0.0, 0.01}};
+  EXPECT_EQ(values_of({MeasureKind::angle, {here, here, there}}, UP)[0].within, 180.0);
+}
+
 /// The discs end below a place that is on the ball: the point beside it says how far beside.
 TEST(SurfacePoint, HoldsItsWaySidewaysInTheInterval) {
   const double spacing = nearest_point(ball(), {}, {1.0, 0.0, 0.0})->spacing_world, angle = 3.0 * spacing;

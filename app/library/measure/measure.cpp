@@ -12,6 +12,7 @@ namespace {
 constexpr double ROUNDED = 1e-4;  ///< of an error: three steps of a splat's normal (OCT_SCALE), radians
 /// Share of the widest interval beside it, below which an interval comes of the error of the normal, a degree.
 constexpr double NEGLIGIBLE = 0.02;
+constexpr double ANY_ANGLE_DEG = 180.0;  ///< the interval of an angle of which nothing is known
 
 using Places = std::vector<glm::dvec3>;
 
@@ -43,7 +44,8 @@ MeasureValue propagated(const char* name, MeasureUnit unit, const Measure& measu
   // Across all errors a length is as exact as it was given; what is left of them there are rounded normals.
   const double deviation = std::sqrt(variance);
   if (unit == MeasureUnit::length && deviation < ROUNDED * largest) return {name, value, 0.0, unit};
-  return {name, value, OF_95_PERCENT * deviation, unit};
+  const double within = OF_95_PERCENT * deviation;
+  return {name, value, unit == MeasureUnit::degrees ? std::min(within, ANY_ANGLE_DEG) : within, unit};
 }
 
 double horizontal_part(const Places& points, const glm::dvec3& up) {

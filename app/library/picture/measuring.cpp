@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "app/library/measure/outline_crossing.h"
 #include "app/library/measure/surface_point.h"
 #include "app/library/picture/aimed_ray.h"
 #include "app/library/picture/volume_measure.h"
@@ -44,6 +45,17 @@ SurfacePoint snapped(const Scene& scene, const Region& region, const GivenMeasur
                   ", four spacings of the points there, or a ray, of which the first hit counts");
 }
 
+/// Throws Error where an area's outline crosses itself.
+void require_inside(const Measure& measure) {
+  if (measure.kind != MeasureKind::area) return;
+  std::vector<glm::dvec3> places;
+  for (const SurfacePoint& point : measure.points) places.push_back(point.place);
+  const std::string crossing = crossing_of(flat_outline(places));
+  if (!crossing.empty())
+    throw Error(ExitCode::failed, "cannot measure an area: the side " + crossing +
+                                      ", expected the places in their order around it");
+}
+
 }  // namespace
 
 Measure take_measure(const Scene& scene, const Region& region, const GivenMeasure& given,
@@ -58,14 +70,16 @@ Measure take_measure(const Scene& scene, const Region& region, const GivenMeasur
       measure.points.push_back(place.direction ? first_hit(*shown, scene, region, place)
                                                : snapped(scene, region, given, place.place));
   }
+  require_inside(measure);
   if (given.base) take_volume(scene, region, *given.base, measure);
   if (!is_fitted(given.kind)) return measure;
   if (!fit_near(scene, region, measure.points[0].place, given.reach, measure))
-    throw Error(ExitCode::failed,
-                std::string("cannot fit a ") + measure_name(given.kind) + " within " +
-                    number_text(given.reach) + " of " + number_text(measure.points[0].place) +
-                    (given.kind == MeasureKind::plane ? ": what is there lies in a line, or is too little"
-                                                      : ": what is there lies in a plane, or is too little"));
+    throw Error(ExitCode::failed, std::string("cannot fit a ") + measure_name(given.kind) + " within " +
+                                      number_text(given.reach) + " of " +
+                                      number_text(measure.points[0].place) +
+                                      (given.kind == MeasureKind::plane
+                                           ? ": what is there lies in no plane or in a line, or is too little"
+                                           : ": what is there lies in a plane, or is too little"));
   return measure;
 }
 
