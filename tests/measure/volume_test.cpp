@@ -185,6 +185,25 @@ TEST(Volume, IsOfAllWithoutAnOutlineAndAgainstAnEarlierScan) {
   EXPECT_NEAR(found->net(), 0.8 * CONE, found->net_within);
 }
 
+TEST(Volume, OfAllHoldsThatItsBorderIsKnownToADisc) {
+  const double side = 2.0;
+  for (const double turn : {0.0, 0.5}) {
+    const glm::dvec2 along(std::cos(turn), std::sin(turn)), across(-along.y, along.x);
+    const auto inside = [&](const glm::dvec2& at) {
+      return std::max(std::abs(glm::dot(at, along)), std::abs(glm::dot(at, across))) < 0.5 * side;
+    };
+    const Scene scene = ground([](const glm::dvec2&) { return 3.0; }, {.noise = 0.002, .is_seen = inside});
+    for (const bool is_all : {true, false}) {
+      Measure measure{MeasureKind::volume, is_all ? std::vector<SurfacePoint>{} : square(1.5)};
+      take_volume(scene, {}, read_base("z=100"), measure);
+      const double truth = 3.0 * side * side;
+      EXPECT_NEAR(measure.volume->cut, truth, measure.volume->cut_within) << turn << ' ' << is_all;
+      EXPECT_NEAR(measure.volume->net(), truth, measure.volume->net_within) << turn << ' ' << is_all;
+      EXPECT_LT(measure.volume->net_within, 0.1 * truth) << turn << ' ' << is_all;
+    }
+  }
+}
+
 TEST(Volume, InFeetIsTheSameInFeet) {
   Input input;
   std::vector<glm::dvec3>& feet = input.objects.emplace_back().points.position;
@@ -223,6 +242,9 @@ TEST(Volume, OfWrongBasesAndOutlinesIsRefused) {
   const Scene scene = ground(wedge, {.spacing = 0.1});
   Measure upright{MeasureKind::volume, square(1.0)};
   EXPECT_THROW(take_volume(scene, {}, read_base("plane=0,0,0,1,0,0"), upright), Error);
+  Measure crossed{MeasureKind::volume, square(1.0)};
+  std::swap(crossed.points[2], crossed.points[3]);
+  EXPECT_THROW(take_volume(scene, {}, read_base("z=99"), crossed), Error) << "it has no inside";
   Measure elsewhere{MeasureKind::volume, square(1.0)};
   for (SurfacePoint& corner : elsewhere.points) corner.place.x += 100.0;
   EXPECT_THROW(take_volume(scene, {}, read_base("z=0"), elsewhere), Error);

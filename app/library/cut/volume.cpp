@@ -48,6 +48,19 @@ CellPart part_of(const Outline& polygon) {
   return part;
 }
 
+/// Takes the cells beside unknown ones away: discs stick out by about a cell beside where points end.
+void take_border_away(HeightRaster& raster) {
+  const std::vector<double> before = raster.values;
+  const std::size_t width = raster.width;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const std::size_t x = i % width, y = i / width;
+    const bool is_border = (x > 0 && std::isnan(before[i - 1])) || (y > 0 && std::isnan(before[i - width])) ||
+                           (x + 1 < width && std::isnan(before[i + 1])) ||
+                           (y + 1 < raster.height && std::isnan(before[i + width]));
+    if (is_border) raster.values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 /// Heights, and how far those between others may be off.
 struct SeenHeights {
   HeightRaster raster;
@@ -59,6 +72,7 @@ struct SeenHeights {
     fill_heights(scene, region, axes, raster);
     measured = raster;
     spreads = fill_holes(raster);
+    take_border_away(raster);
   }
 };
 
@@ -67,6 +81,8 @@ struct Sums {
   double cut = 0.0, fill = 0.0, area = 0.0, uncovered = 0.0;
   double holes = 0.0;  ///< what the volumes may be off by in holes
   double bends = 0.0;  ///< area times what a cell's four neighbours lie above it, all together
+  /// What lies of net, cut and fill in cells in which the surface may end.
+  std::array<double, 3> borders{};
 };
 
 /// One grid over the outline.
@@ -103,6 +119,9 @@ class VolumeGrid {
       sums.holes += parts_[i].area * std::hypot(surface_->spreads[i], earlier_ ? earlier_->spreads[i] : 0.0);
       sums.bends +=
           parts_[i].area * (bend_at(surface_->raster, i) + (earlier_ ? bend_at(earlier_->raster, i) : 0.0));
+      const double border = border_part(base, i) * parts_[i].area * std::abs(above);
+      sums.borders[0] += border;
+      sums.borders[above > 0.0 ? 1 : 2] += border;
     }
     return sums;
   }
@@ -145,6 +164,24 @@ class VolumeGrid {
     const double height = height_at(surface_->raster, cell, middle);
     return height - (earlier_ ? height_at(earlier_->raster, cell, middle)
                               : base.height + glm::dot(base.slope, middle));
+  }
+
+  /// The part of a known cell by which the surface may end elsewhere: all of it beside unknown ones, half at the rectangle around all
+  /// points, which their noise makes larger.
+  [[nodiscard]] double border_part(const VolumeBase& base, std::size_t cell) const {
+    const std::size_t width = surface_->raster.width, x = cell % width, y = cell / width;
+    double part = 0.0;
+    const auto add = [&](bool is_inside, std::size_t beside) {
+      if (!is_inside)
+        part = std::max(part, ground_.is_all ? 0.5 : 0.0);
+      else if (parts_[beside].area > 0.0 && std::isnan(height_above(base, beside)))
+        part = 1.0;
+    };
+    add(x > 0, cell - 1);
+    add(x + 1 < width, cell + 1);
+    add(y > 0, cell - width);
+    add(y + 1 < surface_->raster.height, cell + width);
+    return part;
   }
 
   /// By the slope between a cell's neighbours.
@@ -231,7 +268,10 @@ std::vector<CellPart> cell_parts(const glm::dvec2& corner, double cell, std::uin
 std::optional<VolumeFound> volume_over(const VolumeGround& ground, const VolumeBase& base,
                                        std::span<const VolumeBase> shifted) {
   VolumeGround known = ground;
-  if (known.outline.empty()) known.outline = outline_of(ground.scene, ground.region, ground.axes);
+  if (known.outline.empty()) {
+    known.outline = outline_of(ground.scene, ground.region, ground.axes);
+    known.is_all = true;
+  }
   const double radius = disc_radius(ground.scene, ground.region), all = part_of(known.outline).area;
   if (!(radius > 0.0) || !(all > 0.0)) return {};
   const double cell = std::max(radius, std::sqrt(all / MOST_CELLS));
@@ -257,7 +297,8 @@ std::optional<VolumeFound> volume_over(const VolumeGround& ground, const VolumeB
   const double bends = coarse.bends * squared(radius / (2.0 * cell)) / 16.0;
   const auto within = [&](std::size_t i) {
     const double random = OF_95_PERCENT * std::sqrt(variances.at(i));
-    return std::hypot(random, grids.at(i), bends) + sums.holes + (i == 0 ? 0.0 : noise.taken);
+    return std::hypot(random, grids.at(i), bends) + sums.holes + sums.borders.at(i) +
+           (i == 0 ? 0.0 : noise.taken);
   };
   return VolumeFound{sums.cut, sums.fill, within(1), within(2), within(0), sums.area, sums.uncovered};
 }

@@ -5,6 +5,7 @@
 
 #include "app/library/cut/volume.h"
 #include "app/library/measure/least_squares.h"
+#include "app/library/measure/outline_crossing.h"
 #include "app/library/shot/scene_source.h"
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
@@ -88,6 +89,8 @@ void take_volume(const Scene& scene, const Region& region, const GivenBase& give
     places.push_back(point.place);
     ground.outline.push_back(on_ground(axes, point.place));
   }
+  if (const std::string crossing = crossing_of(ground.outline); !crossing.empty())
+    refuse_base("the outline's side " + crossing + ", expected the places in their order around it");
   std::optional<Scene> earlier;
   VolumeBase base{given.height};
   std::vector<VolumeBase> shifted;
@@ -102,6 +105,7 @@ void take_volume(const Scene& scene, const Region& region, const GivenBase& give
   }
   if (ground.outline.empty()) {
     ground.outline = outline_of(scene, region, axes);
+    ground.is_all = true;
     for (const glm::dvec2& corner : ground.outline) {
       const double height = earlier ? glm::dot(scene.bounds_min_world, axes.toward)
                                     : base.height + glm::dot(base.slope, corner);
