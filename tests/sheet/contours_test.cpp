@@ -9,8 +9,10 @@
 #include "app/library/cut/contours.h"
 #include "app/library/cut/floor_levels.h"
 #include "app/library/sheet/height_marks.h"
+#include "app/library/sheet/page_style.h"
 #include "app/library/sheet/sheet_dxf.h"
 #include "app/library/sheet/sheet_page.h"
+#include "app/library/sheet/text_block.h"
 #include "app/library/shot/sheet_placement.h"
 #include "engine/base/error.h"
 #include "preprocess/build.h"
@@ -158,6 +160,27 @@ TEST(FloorLevels, AreMarkedBesideSections) {
   EXPECT_NEAR(marks.at("+0.00") - marks.at("+0.80"), 16.0, 0.2);
   EXPECT_TRUE(make_sheet(room_with_table(), with_sheet("section:0,1,4,1,scale=50,dpi=100")).levels.empty());
   EXPECT_NE(sheet_dxf(sheet, {}, {}).find("\n8\nLEVELS\n"), std::string::npos);
+}
+
+/// At 1 : 200 the table is 4 mm above the floor, at 1 : 500 1.6 mm: a page lacks no level that DXF has.
+TEST(FloorLevels, AreAllMarkedWhereTheyLieCloseTogether) {
+  for (const char* scale : {"scale=200,dpi=200", "scale=500,dpi=300"}) {
+    const Sheet sheet =
+        make_sheet(room_with_table(), with_sheet("section:0,1,4,1,level=100.3,unit=m," + std::string(scale)));
+    const Drawing page = sheet_page(sheet, {0, 0, sheet.width, sheet.height}, {}, {});
+    std::vector<DrawnText> marks;
+    for (const DrawnText& text : page.texts)
+      if (text.text.starts_with('+') && text.size_mm == LABEL_SIZE_MM) marks.push_back(text);
+    ASSERT_EQ(marks.size(), 3U) << scale;
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(text_box(marks[i]).meets(text_box(marks[k]))) << marks[i].text << ' ' << marks[k].text;
+    const double floor = marks[0].at.y + 0.4 * LABEL_SIZE_MM;
+    for (const double height : {0.8, 2.5})
+      EXPECT_TRUE(std::any_of(page.lines.begin(), page.lines.end(), [&](const DrawnLine& line) {
+        return std::abs(floor - line.from.y - 1000.0 * height / sheet.asked.scale) < 0.2;
+      })) << "the line leaves where the level is";
+  }
 }
 
 }  // namespace

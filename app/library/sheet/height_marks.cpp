@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "app/library/measure/measure_words.h"
 #include "app/library/sheet/page_style.h"
@@ -47,6 +48,23 @@ void add_contour_label(const Sheet& sheet, const Contour& contour, const DrawnPa
     view.texts.push_back(text);
     return;
   }
+}
+
+/// A level's line from where it leaves the picture, bent to where its mark has room, and the mark; where no other text is.
+void add_level_mark(const glm::dvec2& from, double mark_y, const std::string& text, Drawing& view) {
+  const glm::dvec2 begin(from.x + MARK_BESIDE, mark_y), tip(begin.x + 0.5 * MARK_TRIANGLE, mark_y),
+      left(begin.x, mark_y - 0.8 * MARK_TRIANGLE), right(begin.x + MARK_TRIANGLE, left.y),
+      text_begin(right.x + MARK_END, mark_y - 0.4 * LABEL_SIZE_MM),
+      end(text_begin.x + text_width(text, LABEL_SIZE_MM) + MARK_END, mark_y);
+  const DrawnText label{text_begin, LABEL_SIZE_MM, TextAnchor::begin, text};
+  const TextBox box = text_box(label);
+  const bool is_free = std::none_of(view.texts.begin(), view.texts.end(),
+                                    [&](const DrawnText& other) { return box.meets(text_box(other)); });
+  if (!is_free || box.low.y < 0.0) return;
+  for (const auto& [a, b] : {std::pair(from, begin), {begin, end}, {tip, left}, {left, right}, {right, tip}})
+    view.lines.push_back({a, b, FINE_LINE_MM});
+  view.texts.push_back(label);
+  view.size.x = std::max(view.size.x, end.x + MARK_END);
 }
 
 }  // namespace
@@ -98,26 +116,16 @@ void draw_contours(const Sheet& sheet, const PixelWindow& window, Drawing& view)
 
 void draw_levels(const Sheet& sheet, const PixelWindow& window, Drawing& view) {
   if (sheet.levels.empty() || !is_upright_sheet(sheet)) return;
-  const double begin = view.rasters.front().corner.x + view.rasters.front().size.x + MARK_BESIDE;
-  const double text_begin = begin + MARK_TRIANGLE + MARK_END;
-  double free_above =
-      view.rasters.front().corner.y + view.rasters.front().size.y;  // texts of lower levels are below it
+  const DrawnRaster& raster = view.rasters.front();
+  const double line = line_height(LABEL_SIZE_MM);
+  double free_above = raster.corner.y + raster.size.y;  // marks of lower levels are below it
   for (const double height : sheet.levels) {
     const glm::dvec2 on_paper = sheet.on_paper(height * glm::normalize(sheet.up));
-    const double y = in_window(sheet, window, {sheet.corner.x, on_paper.y}).y + view.rasters.front().corner.y;
-    const double line = line_height(LABEL_SIZE_MM), base = y - 0.4 * LABEL_SIZE_MM;
-    if (y < view.rasters.front().corner.y + line || y > free_above) continue;
-    free_above = y - line - 0.5 * LABEL_SIZE_MM;
-    const double end = text_begin + text_width(level_text(sheet, height), LABEL_SIZE_MM) + MARK_END;
-    view.lines.push_back(
-        {{view.rasters.front().corner.x + view.rasters.front().size.x, y}, {end, y}, FINE_LINE_MM});
-    const glm::dvec2 tip(begin + 0.5 * MARK_TRIANGLE, y), left(begin, y - 0.8 * MARK_TRIANGLE),
-        right(begin + MARK_TRIANGLE, left.y);
-    view.lines.push_back({tip, left, FINE_LINE_MM});
-    view.lines.push_back({left, right, FINE_LINE_MM});
-    view.lines.push_back({right, tip, FINE_LINE_MM});
-    view.texts.push_back({{text_begin, base}, LABEL_SIZE_MM, TextAnchor::begin, level_text(sheet, height)});
-    view.size.x = std::max(view.size.x, end + MARK_END);
+    const double y = in_window(sheet, window, {sheet.corner.x, on_paper.y}).y + raster.corner.y;
+    if (y < raster.corner.y || y > raster.corner.y + raster.size.y) continue;
+    const double mark_y = std::min(y, free_above);
+    free_above = mark_y - line - 0.5 * LABEL_SIZE_MM;
+    add_level_mark({raster.corner.x + raster.size.x, y}, mark_y, level_text(sheet, height), view);
   }
 }
 

@@ -21,7 +21,8 @@ namespace splatray {
 
 /// Draws the contours on a view (sheet_view.h); where there is room, one of each height says it.
 void draw_contours(const Sheet& sheet, const PixelWindow& window, Drawing& view);
-/// Draws the levels of an upright sheet to the right of its view, which grows; where there is room between them, with their heights.
+/// Draws the levels of an upright sheet with their heights to the right of its view, which grows. Where two have no room for their marks
+/// one above the other, the upper one's mark stands higher, at the end of a bent line.
 void draw_levels(const Sheet& sheet, const PixelWindow& window, Drawing& view);
 
 }  // namespace splatray
