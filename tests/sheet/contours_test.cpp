@@ -13,6 +13,7 @@
 #include "app/library/sheet/sheet_dxf.h"
 #include "app/library/sheet/sheet_page.h"
 #include "app/library/sheet/text_block.h"
+#include "app/library/shot/picture_notes.h"
 #include "app/library/shot/sheet_placement.h"
 #include "engine/base/error.h"
 #include "preprocess/build.h"
@@ -181,6 +182,18 @@ TEST(FloorLevels, AreAllMarkedWhereTheyLieCloseTogether) {
         return std::abs(floor - line.from.y - 1000.0 * height / sheet.asked.scale) < 0.2;
       })) << "the line leaves where the level is";
   }
+}
+
+TEST(SheetNotes, SayWhatMayBeAnotherSheetThanIsMeant) {
+  const auto notes = [](const std::string& text) {
+    return odd_sheet(make_sheet(room_with_table(), with_sheet(text + ",scale=50,dpi=50")));
+  };
+  EXPECT_TRUE(notes("plan:z=101,unit=m").empty());
+  EXPECT_TRUE(notes("plan:unit=m").empty()) << "it is no cut";
+  EXPECT_EQ(notes("plan:z=110,unit=m"),
+            std::vector<std::string>{"the sheet's cut at height 110 meets no surface"});
+  EXPECT_TRUE(notes("plan:z=110,unit=m,weight=0").empty()) << "nobody looked";
+  EXPECT_EQ(notes("plan:z=101").size(), 1U) << "a scan in feet is not at that scale";
 }
 
 }  // namespace

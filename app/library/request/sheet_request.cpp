@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "app/library/request/value_text.h"
 #include "engine/base/length_unit.h"
@@ -49,6 +50,15 @@ double any_number(const std::string& key, const std::string& text) {
   return numbers[0];
 }
 
+/// What lines on paper measure, 0 for none.
+double millimetres(const std::string& key, const std::string& text) {
+  constexpr double MOST = 20.0;
+  const auto numbers = split_numbers(text, ',', 1);
+  if (numbers.empty() || !(numbers[0] >= 0.0 && numbers[0] <= MOST))
+    throw Expected{"a " + key + " of 0 to " + number_text(MOST)};
+  return numbers[0];
+}
+
 /// Keys that each view of a page has for itself.
 bool read_view_key(const std::string& key, const std::string& text, SheetRequest& sheet) {
   if (key == "z" && sheet.kind == SheetKind::plan) {
@@ -67,15 +77,14 @@ bool read_view_key(const std::string& key, const std::string& text, SheetRequest
 
 /// Keys that all views of a page share.
 void read_page_key(const std::string& key, const std::string& text, SheetRequest& sheet) {
-  constexpr double MOST_WEIGHT = 20.0;
   if (key == "scale") {
     sheet.scale = positive(key, text, MOST_SHEET_SCALE);
   } else if (key == "dpi") {
     sheet.dpi = positive(key, text, MOST_SHEET_DPI);
   } else if (key == "weight") {
-    sheet.weight_mm = text == "0" ? 0.0 : positive(key, text, MOST_WEIGHT);
+    sheet.weight_mm = millimetres(key, text);
   } else if (key == "hatch") {
-    sheet.hatch_mm = text == "0" ? 0.0 : positive(key, text, MOST_WEIGHT);
+    sheet.hatch_mm = millimetres(key, text);
   } else if (key == "level") {
     sheet.level = any_number(key, text);
   } else if (key == "unit") {
@@ -122,10 +131,14 @@ SheetRequest read_view(const std::string& text, const SheetRequest& first, bool 
   sheet.height.reset();
   sheet.depth.reset();
   sheet.contours.reset();
+  std::set<std::string> given;
   if (colon < text.size())
     for (const std::string& part : split_names(text.substr(colon + 1))) {
       const std::size_t equals = part.find('=');
       const bool is_turn = part == PORTRAIT || part == LANDSCAPE;
+      if ((is_turn || equals != std::string::npos) &&
+          !given.insert(is_turn ? "" : part.substr(0, equals)).second)
+        throw Expected{"each key once, and portrait or landscape"};
       if (!is_turn && equals == std::string::npos)
         sheet.place.push_back(read_place(part, sheet.kind));
       else if (!is_turn && read_view_key(part.substr(0, equals), part.substr(equals + 1), sheet))

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/library/request/fields.h"
+#include "engine/base/number_text.h"
 #include "engine/scene/look_style.h"
 
 namespace splatray {
@@ -67,6 +68,18 @@ std::vector<std::string> missing_light(const Look& look, const Settings& setting
   if (!lit && !sky)
     notes.push_back(
         "nothing sends out light and the picture is black; --light, --sun or --environment studio give some");
+  return notes;
+}
+
+std::vector<std::string> odd_sheet(const Sheet& sheet) {
+  std::vector<std::string> notes;
+  if (!sheet.unit_known)
+    notes.emplace_back(
+        "the file names no unit; the sheet takes its coordinates for metres, unit= in --sheet says others");
+  if (sheet.cuts && !sheet.floor && sheet.asked.weight_mm > 0.0 && sheet.cut_curves.empty())
+    notes.push_back("the sheet's cut" +
+                    (sheet.asked.height ? " at height " + number_text(*sheet.asked.height) : std::string()) +
+                    " meets no surface");
   return notes;
 }
 

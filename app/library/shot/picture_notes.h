@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/library/request/request.h"
+#include "app/library/shot/sheet.h"
 #include "engine/image/look.h"
 
 namespace splatray {
@@ -14,6 +15,10 @@ namespace splatray {
 /// Sentences about light that is not there: that lights have no power, and that nothing sends out light, so that the picture is
 /// black. None for looks that need no light.
 [[nodiscard]] std::vector<std::string> missing_light(const Look& look, const Settings& settings);
+
+/// Sentences about a sheet that may be another than is meant: its unit is not known, or its cut meets nothing, but for an atlas' page, as
+/// a roof's is.
+[[nodiscard]] std::vector<std::string> odd_sheet(const Sheet& sheet);
 
 /// Whether some object that is shown sends out light.
 [[nodiscard]] bool sends_out_light(const std::vector<Material>& materials);

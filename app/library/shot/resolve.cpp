@@ -191,6 +191,9 @@ void resolve_drawing(const Scene& scene, const SceneFacts& facts, Shot& shot) {
   const bool has_legend = !request.view.xray && look_style(resolve_look(scene, request)).colors;
   const auto show = [&](Sheet& sheet) {
     if (has_legend) sheet.legend = facts.legend;
+    for (std::string& odd : odd_sheet(sheet))
+      if (std::find(shot.notes.begin(), shot.notes.end(), odd) == shot.notes.end())
+        shot.notes.push_back(std::move(odd));
     show_sheet(sheet, shot);
   };
   if (request.view.sheet->is_set()) {
