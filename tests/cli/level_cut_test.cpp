@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/library/shot/level_cut.h"
+#include "app/library/shot/scene_levels.h"
 
 namespace splatray {
 namespace {
@@ -113,6 +114,23 @@ TEST(LevelCut, CutsAreNested) {
     less.most_points = points_of(levels, finer);
     EXPECT_EQ(cut(levels, less), finer);
   }
+}
+
+TEST(ReadNote, SaysWhatDecidesHowMuchIsRead) {
+  const InLevels files{{"ground"}, {ground(6, 1000)}};
+  const std::vector<View> views = {from_above(600.0)};
+  const auto note = [&](std::uint64_t memory) {
+    Request request;
+    request.source.lod = 4.0;
+    request.source.memory_bytes = memory;
+    return read_note(request, files, needed_nodes(request, views, files));
+  };
+  EXPECT_NE(note(0).find("as the pictures need"), std::string::npos) << note(0);
+  EXPECT_NE(note(6'000'000).find("as memory holds"), std::string::npos) << note(6'000'000);
+  EXPECT_NE(
+      note(100).find("read 1000 of 1365000 points in levels, the coarsest level, which takes more memory"),
+      std::string::npos)
+      << note(100);
 }
 
 /// By rays through all pixels: where one meets the ground, the nodes there that are not taken have their points near enough above.

@@ -78,6 +78,17 @@ NeededNodes needed_nodes(const Request& request, const std::vector<View>& views,
   return needed;
 }
 
+std::string read_note(const Request& request, const InLevels& files, const NeededNodes& needed) {
+  const std::uint64_t points = files.points(needed.nodes);
+  std::string why = "as the pictures need; --lod 0 reads all";
+  if (points > most_points(request))
+    why = "the coarsest level, which takes more memory than there is or --max-memory says";
+  else if (needed.lod > request.source.lod.value_or(1.0))
+    why = "as memory holds, of which --max-memory may say more; the pictures need finer ones";
+  return "read " + std::to_string(points) + " of " + std::to_string(files.points()) + " points in levels, " +
+         why;
+}
+
 ChosenNodes with_all_seen(const Request& request, const std::vector<View>& parts, const InLevels& files,
                           const ChosenNodes& nodes) {
   LevelCut cut;

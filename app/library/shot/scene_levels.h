@@ -36,6 +36,9 @@ struct NeededNodes {
 [[nodiscard]] NeededNodes needed_nodes(const Request& request, const std::vector<View>& views,
                                        const InLevels& files);
 
+/// A sentence on how many points are read, and whether that is what the pictures need or what memory holds.
+[[nodiscard]] std::string read_note(const Request& request, const InLevels& files, const NeededNodes& needed);
+
 /// These nodes and all that parts of pictures show. Throws Error (out_of_memory) for more points than the request's memory holds.
 [[nodiscard]] ChosenNodes with_all_seen(const Request& request, const std::vector<View>& parts,
                                         const InLevels& files, const ChosenNodes& nodes);

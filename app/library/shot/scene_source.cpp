@@ -111,10 +111,7 @@ LoadedScene load_needed(const Request& request, const InLevels& files, const Sce
   NeededNodes needed = needed_nodes(request, all_views(shot, whole), files);
   LoadedScene loaded;
   if (needed.nodes != shown) {
-    if (listener.note)
-      listener.note("read " + std::to_string(files.points(needed.nodes)) + " of " +
-                    std::to_string(files.points()) +
-                    " points in levels, as the pictures need; --lod 0 reads all");
+    if (listener.note) listener.note(read_note(request, files, needed));
     loaded = load_nodes(as_chosen(request, overview), needed.nodes, {listener.progress, listener.note});
   }
   ColorLegend legend = std::move(loaded.facts.legend);
