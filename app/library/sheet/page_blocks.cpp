@@ -255,7 +255,8 @@ std::vector<std::string> sheet_notes(const Sheet& sheet, PageOf page) {
   std::vector<std::string> notes = {"A pixel is " + length_text(sheet, sheet.pixel_world) + ", " +
                                     number_text(sheet.asked.dpi) + " dpi"};
   if (sheet.asked.level) {
-    std::string levels = "Levels from +0.00 at height " + length_text(sheet, *sheet.asked.level);
+    std::string levels = "Levels from " + level_text(sheet, *sheet.asked.level) + " at height " +
+                         length_text(sheet, *sheet.asked.level);
     for (std::size_t i = 0; page == PageOf::one_sheet && i < sheet.levels.size(); ++i)
       levels += (i == 0 ? ": " : ", ") + level_text(sheet, sheet.levels[i]);
     notes.push_back(levels);
