@@ -6,6 +6,8 @@
 #include <random>
 
 #include "app/library/measure/measure.h"
+#include "app/library/measure/surface_point.h"
+#include "tests/scan_sim/built_scan.h"
 
 namespace splatray {
 namespace {
@@ -81,6 +83,34 @@ TEST(RadiusFit, OfPlanesAndTooFewPointsIsNone) {
   plane.normals.resize(7);
   EXPECT_FALSE(fit_sphere(plane.points, plane.normals));
   EXPECT_FALSE(fit_sphere({}, {}));
+}
+
+/// Smoothing moves bent surfaces inwards, by more than what the noise of so many points leaves of a radius.
+TEST(RadiusFit, OfSmoothedPointsHoldsTheTruthInTheInterval) {
+  constexpr double RADIUS = 0.3;
+  for (const bool cylinder : {false, true})
+    for (const unsigned seed : {1U, 2U}) {
+      std::mt19937 random(seed);
+      std::normal_distribution<double> normal;
+      Points points;
+      for (int i = 0; i < 30000; ++i) {
+        const glm::dvec3 any(normal(random), normal(random), cylinder ? 0.0 : normal(random));
+        const double along = cylinder ? std::uniform_real_distribution<double>(-0.5, 0.5)(random) : 0.0;
+        points.position.push_back((RADIUS + NOISE * normal(random)) * glm::normalize(any) +
+                                  glm::dvec3(0.0, 0.0, along));
+      }
+      const testing::BuiltScan built = testing::build_scan(points);
+      ASSERT_GT(built.stats.moved_median_world, 0.3 * NOISE) << "nothing moved, nothing shown";
+      const MeasureKind kind = cylinder ? MeasureKind::cylinder : MeasureKind::sphere;
+      Measure measure{kind, {{{RADIUS, 0.0, 0.0}}}};
+      measure.fit = radius_near(built.scene, {}, {RADIUS, 0.0, 0.0}, 0.4, kind);
+      ASSERT_TRUE(measure.fit);
+      const MeasureValue radius = values_of(measure, {0.0, 0.0, 1.0}).front();
+      EXPECT_NEAR(radius.value, RADIUS, radius.within) << cylinder << ' ' << seed;
+      EXPECT_LT(radius.within, 0.5 * NOISE) << cylinder << ' ' << seed;
+      std::printf("%s %u: off by %.3g, interval %.3g\n", measure_name(kind), seed, radius.value - RADIUS,
+                  radius.within);
+    }
 }
 
 /// Points of a floor of 2 x 0.5 that leans by `tilt_deg` across its short side, where its direction is least sure.

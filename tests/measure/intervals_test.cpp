@@ -106,5 +106,10 @@ TEST(Measures, HoldTheTruthInTheirIntervals) {
   }
 }
 
+TEST(Measures, AnAngleIsNoMoreUnknownThanAllAngles) {
+  const SurfacePoint here{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.01}}, there{{1.0, 0.0, 0.0}, {0.0, 0.0, 0.01}};
+  EXPECT_EQ(values_of({MeasureKind::angle, {here, here, there}}, {0.0, 0.0, 1.0})[0].within, 180.0);
+}
+
 }  // namespace
 }  // namespace splatray::testing

@@ -341,11 +341,6 @@ TEST(Areas, OfOutlinesThatCrossThemselvesAreRefused) {
   }
 }
 
-TEST(Values, AnAngleIsNoMoreUnknownThanAllAngles) {
-  const SurfacePoint here{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.01}}, there{{1.0, 0.0, 0.0}, {0.0, 0.0, 0.01}};
-  EXPECT_EQ(values_of({MeasureKind::angle, {here, here, there}}, UP)[0].within, 180.0);
-}
-
 /// The discs end below a place that is on the ball: the point beside it says how far beside.
 TEST(SurfacePoint, HoldsItsWaySidewaysInTheInterval) {
   const double spacing = nearest_point(ball(), {}, {1.0, 0.0, 0.0})->spacing_world, angle = 3.0 * spacing;

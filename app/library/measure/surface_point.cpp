@@ -94,9 +94,10 @@ double spacing_of(const std::vector<Near>& near) {
   return std::sqrt(std::numbers::pi * farthest / static_cast<double>(std::max<std::size_t>(near.size(), 1)));
 }
 
-/// Centres and normals of the splats in the region within `reach` of a place.
+/// Centres and normals of the splats in the region within `reach` of a place, and the mean of their squared radii.
 struct NearSurface {
   std::vector<glm::dvec3> points, normals;
+  double radius_squared = 0.0;
 };
 
 NearSurface surface_near(const Scene& scene, const Region& region, const glm::dvec3& place, double reach) {
@@ -106,8 +107,18 @@ NearSurface surface_near(const Scene& scene, const Region& region, const glm::dv
     if (glm::distance(center, place) > reach || !region.holds(center)) return;
     surface.points.push_back(center);
     surface.normals.push_back(splat.normal());
+    surface.radius_squared += splat.radius_world() * splat.radius_world();
   });
+  if (!surface.points.empty()) surface.radius_squared /= static_cast<double>(surface.points.size());
   return surface;
+}
+
+/// How far smoothing moved what is bent towards its inside: by the mean curvature times a quarter of the square of the radius over which
+/// means were taken, which holds as many points as make the residual of the noise; each has the square of a disc's radius.
+double smoothed_inwards(const RadiusFit& fit, double noise, double radius_squared) {
+  const double bend = (fit.axis == glm::dvec3(0.0) ? 1.0 : 0.5) / fit.radius;
+  const double points = std::max(noise * noise / (fit.residual * fit.residual) - 1.0, 0.0);
+  return bend * points * radius_squared / (4.0 * std::numbers::pi);
 }
 
 }  // namespace
@@ -143,10 +154,13 @@ std::optional<SnappedPoint> nearest_point(const Scene& scene, const Region& regi
 
 std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region, const glm::dvec3& place,
                                      double reach, MeasureKind kind) {
-  const auto [points, normals] = surface_near(scene, region, place, reach);
-  auto fit = kind == MeasureKind::sphere ? fit_sphere(points, normals) : fit_cylinder(points, normals);
+  const NearSurface near = surface_near(scene, region, place, reach);
+  auto fit = kind == MeasureKind::sphere ? fit_sphere(near.points, near.normals)
+                                         : fit_cylinder(near.points, near.normals);
   const double noise = most_noise_world(scene.stations);
-  if (fit && fit->residual > 0.0) fit->radius_error *= std::max(1.0, noise / fit->residual);
+  if (fit && fit->residual > 0.0)
+    fit->radius_error = std::hypot(fit->radius_error * std::max(1.0, noise / fit->residual),
+                                   smoothed_inwards(*fit, noise, near.radius_squared));
   return fit;
 }
 

@@ -33,7 +33,8 @@ struct SnappedPoint {
                                                         const glm::dvec3& place);
 
 /// Sphere or cylinder of the splats in the region within `reach` of a place; nothing where they make none. Smoothed points lie
-/// closer to it than they were measured: the error is that of the scans' noise where the residuals say less.
+/// closer to it than they were measured, and farther inside: the error is that of the scans' noise where the residuals say less, and how far
+/// the smoothing that these tell of moves what is bent.
 [[nodiscard]] std::optional<RadiusFit> radius_near(const Scene& scene, const Region& region,
                                                    const glm::dvec3& place, double reach, MeasureKind kind);
 
