@@ -212,8 +212,7 @@ double stands_on(const PointSample& sample, const glm::dvec3& up) {
 }
 
 std::string up_note(const glm::dvec3& up) {
-  return "up is " + number_text(up) +
-         " by the shape of the points, not by their format; --up=X,Y,Z says otherwise";
+  return "up is " + number_text(up) + " by the shape of the points, not by their format";
 }
 
 const char* up_evidence_name(UpEvidence evidence) {

@@ -1,4 +1,7 @@
 /// Command lines: nonsense ends in exit code 2 and one sentence, before any work.
+#include <cmath>
+#include <numbers>
+
 #include "tests/cli/child_process.h"
 
 namespace splatray {
@@ -130,6 +133,24 @@ TEST_F(CliOptions, MeasuresTakeAnUpDirection) {
   };
   EXPECT_NE(vertical("1,0,0").find("vertical\tvertical\t10.0"), std::string::npos) << vertical("1,0,0");
   EXPECT_NE(vertical("0,1,0").find("vertical\tvertical\t4.0"), std::string::npos) << vertical("0,1,0");
+}
+
+TEST_F(CliOptions, NotesNameOptionsThatAreThere) {
+  std::string cone = "v 0 0 2\nv 0 0 0\n";
+  constexpr int SIDES = 40;
+  for (int i = 0; i < SIDES; ++i)
+    cone += "v " + std::to_string(std::cos(0.05 * std::numbers::pi * i)) + ' ' +
+            std::to_string(std::sin(0.05 * std::numbers::pi * i)) + " 0\n";
+  for (int i = 0; i < SIDES; ++i) {
+    const std::string from = std::to_string(3 + i), to = std::to_string(3 + (i + 1) % SIDES);
+    cone += "f 1 " + from + ' ' + to + "\nf 2 " + to + ' ' + from + '\n';
+  }
+  const std::string path = write("cone.obj", cone);
+  const std::string made = preprocess({path, "--mesh-points=2000"}).err;
+  EXPECT_NE(made.find("up is 0,0,1"), std::string::npos) << made;
+  EXPECT_EQ(made.find("--up"), std::string::npos) << made;
+  const std::string measured = run_program({MEASURE, path, "--mesh-points=2000", "--point=0,0,0"}).err;
+  EXPECT_NE(measured.find("--up=X,Y,Z says otherwise"), std::string::npos) << measured;
 }
 
 TEST_F(CliOptions, HelpAndVersion) {

@@ -29,6 +29,9 @@ ReadOptions reading_of(const Request& request, const Progress& progress) {
   return reading;
 }
 
+/// What those who make pictures and measures may do about the up direction; a scene file is shown, and its up asked, later.
+constexpr const char* UP_SAYS_OTHERWISE = "; --up=X,Y,Z says otherwise";
+
 /// Builds the scene of objects whose points are there.
 void build(Input input, const Request& request, const LoadListener& listener, const Progress& progress,
            LoadedScene& loaded) {
@@ -40,7 +43,9 @@ void build(Input input, const Request& request, const LoadListener& listener, co
   BuildStats& stats = loaded.build.emplace();
   loaded.scene =
       build_scene(std::move(input), request.source.params, request.source.threads, stats, progress);
-  if (request.look.up) std::erase(stats.notes, up_note(loaded.scene.up));  // the request says otherwise
+  const std::string up = up_note(loaded.scene.up);
+  if (request.look.up) std::erase(stats.notes, up);  // the request says otherwise
+  std::replace(stats.notes.begin(), stats.notes.end(), up, up + UP_SAYS_OTHERWISE);
   report_notes(stats.notes);
 }
 
@@ -50,7 +55,8 @@ void show_as_asked(const Request& request, const LoadListener& listener, LoadedS
   scene.materials = choose_materials(scene, request);
   const UpFound found = resolve_up(scene, request);
   const glm::dvec3 format_up = std::exchange(scene.up, found.up);
-  if (listener.note && !request.look.up && scene.up != format_up) listener.note(up_note(scene.up));
+  if (listener.note && !request.look.up && scene.up != format_up)
+    listener.note(up_note(scene.up) + UP_SAYS_OTHERWISE);
   loaded.facts = facts_of(scene);
   loaded.facts.up = found;
   const AttributeOptions attributes = resolve_attributes(request, loaded.facts);
