@@ -57,8 +57,6 @@ TEST(SheetText, OfAnythingElseIsRefused) {
                            "plan:unit=yard",
                            "plan:weight=-1",
                            "plan:hatch=-1",
-                           "plan:z=1.2,z=1.3",
-                           "plan:portrait,landscape",
                            "plan:paper=A5",
                            "plan:paper=",
                            "plan:sideways",

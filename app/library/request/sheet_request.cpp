@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "app/library/request/value_text.h"
 #include "engine/base/length_unit.h"
@@ -131,14 +130,10 @@ SheetRequest read_view(const std::string& text, const SheetRequest& first, bool 
   sheet.height.reset();
   sheet.depth.reset();
   sheet.contours.reset();
-  std::set<std::string> given;
   if (colon < text.size())
     for (const std::string& part : split_names(text.substr(colon + 1))) {
       const std::size_t equals = part.find('=');
       const bool is_turn = part == PORTRAIT || part == LANDSCAPE;
-      if ((is_turn || equals != std::string::npos) &&
-          !given.insert(is_turn ? "" : part.substr(0, equals)).second)
-        throw Expected{"each key once, and portrait or landscape"};
       if (!is_turn && equals == std::string::npos)
         sheet.place.push_back(read_place(part, sheet.kind));
       else if (!is_turn && read_view_key(part.substr(0, equals), part.substr(equals + 1), sheet))
