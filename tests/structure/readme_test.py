@@ -34,7 +34,8 @@ SMALLER_IF = {"splatray-render": {"--mesh-points": "--mesh-points=2000", "--erro
 # In place of both, behind those that name one of these: a sheet has a size of its own.
 INSTEAD_IF = {"splatray-render": {"--sheet": "--samples=2"}}
 # Sheets of few pixels: of keys given twice the last one holds.
-COARSE = ('n=$#; while [ $n -gt 0 ]; do a=$1; shift; n=$((n - 1)); case "$a" in plan:*|section:*|elevation:*) a="$a,dpi=20";; esac; '
+COARSE = ('n=$#; while [ $n -gt 0 ]; do a=$1; shift; n=$((n - 1)); case "$a" in plan:*\\;*) a="${a%%;*},dpi=20;${a#*;}";; '
+          'plan:*|section:*|elevation:*) a="$a,dpi=20";; esac; '
           'set -- "$@" "$a"; done\n')
 
 
