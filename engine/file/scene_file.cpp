@@ -158,7 +158,7 @@ void read_world(SceneInput& input, SectionReader& sections, Scene& scene) {
 
 void read_stations(SceneInput& input, SectionReader& sections, Scene& scene) {
   for (const StationRecord& record : records_if_any<StationRecord>(sections, "stations")) {
-    if (record.has_sensor > 1) input.refuse("a station's flag above 1", "0 or 1");
+    if (record.has_sensor > 1 || record.sensor_found > 1) input.refuse("a station's flag above 1", "0 or 1");
     scene.stations.push_back(value_of(record));
   }
   const std::vector<std::string> names = names_of(sections, "station_names", scene.stations.size());

@@ -48,7 +48,7 @@
 ///   camera           | record  | float64[3] eye, target, up; float64 fov_y_deg, ortho_height; world (Camera)
 ///   environment      | text    | path of the environment map
 ///   crs              | text    | coordinate reference system
-///   stations         | record  | float64[3] the scanner's place; uint32 is it known, rows, columns of its grid, zero; float64 noise,
+///   stations         | record  | float64[3] the scanner's place; uint32 is it known, rows, columns of its grid, was one found; float64 noise,
 ///                    |         | step of the coordinates, world, 0 = unknown (Station)
 ///   station_names    | text    | beside the stations
 ///   column_names     | text    | of column.0 and so on

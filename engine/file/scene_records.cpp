@@ -35,7 +35,7 @@ StationRecord record_of(const Station& station) {
           station.sensor_world ? 1U : 0U,
           station.rows,
           station.columns,
-          0,
+          station.sensor_found ? 1U : 0U,
           station.noise_world,
           station.step_world};
 }
@@ -43,6 +43,7 @@ StationRecord record_of(const Station& station) {
 Station value_of(const StationRecord& record) {
   Station station;
   if (record.has_sensor != 0) station.sensor_world = record.sensor;
+  station.sensor_found = record.sensor_found != 0;
   station.rows = record.rows;
   station.columns = record.columns;
   station.noise_world = record.noise;

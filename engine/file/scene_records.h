@@ -30,9 +30,9 @@ struct CameraRecord {
 };
 
 struct StationRecord {
-  static constexpr std::uint32_t LEAST_BYTES = 40;  ///< up to zero
+  static constexpr std::uint32_t LEAST_BYTES = 40;  ///< up to sensor_found
   glm::dvec3 sensor;
-  std::uint32_t has_sensor, rows, columns, zero;
+  std::uint32_t has_sensor, rows, columns, sensor_found;
   double noise, step;
 };
 

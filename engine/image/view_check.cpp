@@ -75,11 +75,11 @@ Camera from_other_side(Camera camera, const glm::dvec3& up) {
   return camera;
 }
 
-/// Whether each point was seen from a known place, so that its surface's front faces there.
+/// Whether each point was seen from a known or found place, so that its surface's front faces there.
 bool has_measured_sides(const Scene& scene) {
   return !scene.stations.empty() &&
          std::all_of(scene.stations.begin(), scene.stations.end(),
-                     [](const Station& station) { return station.sensor_world.has_value(); });
+                     [](const Station& station) { return station.sensor_world || station.sensor_found; });
 }
 
 bool is_outside(Viewpoint viewpoint) {

@@ -40,7 +40,7 @@ struct CheckedView {
 };
 
 /// The check of one view of a scan. A view from outside, front or oblique, is closed where more than half of what it shows is seen from
-/// behind and all scanners' places are known, which decide the sides, or more than 65 % and most of the points lie in upright or level
+/// behind and all scanners' places are known or found, which decides the sides, or more than 65 % and most of the points lie in upright or level
 /// planes: it looks at the backs of walls, or of a roof over the scanner. A doll's house is closed where less than 15 % faces away
 /// from the camera, and from one at the other side, so that nothing is left out; it shows background where 90 % is empty. A view from
 /// inside is in a wall where a quarter is next to the camera, has one plane where that is more than 70 %, and background where more than

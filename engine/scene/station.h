@@ -19,6 +19,8 @@ struct Station {
   /// explains how far smoothing moved them; 0 = unknown.
   double noise_world = 0.0;
   double step_world = 0.0;  ///< what its coordinates are multiples of, along the coarsest axis; 0 = unknown
+  /// The points show where the scanner was, and their normals face it; views do not stand there, as no file says so.
+  bool sensor_found = false;
 };
 
 /// The largest noise of several; 0 = unknown.

@@ -15,7 +15,10 @@ constexpr std::uint32_t OPTIONAL = 1;
 
 class SceneSections : public SceneFile {
  protected:
-  void SetUp() override { sections = sections_of(written(scene)); }
+  void SetUp() override {
+    scene.stations[1].sensor_found = true;
+    sections = sections_of(written(scene));
+  }
 
   /// Refusal of the sections with one changed.
   template <typename Change>

@@ -113,6 +113,8 @@ TEST(CheckedViews, ACaveThatWasScannedFromWithinOpens) {
   }
   scene.stations[0].sensor_world.reset();
   EXPECT_EQ(check_views(scene, SceneKind::sweep, Viewpoint::oblique).size(), 1U) << "the sides are a guess";
+  scene.stations[0].sensor_found = true;
+  EXPECT_EQ(check_views(scene, SceneKind::sweep, Viewpoint::oblique).back().viewpoint, Viewpoint::dollhouse);
   Scene open = scan_scene(ground(true));
   open.stations[0].sensor_world = glm::dvec3(0.0, 0.0, 6.0);
   EXPECT_EQ(check_views(open, SceneKind::sweep, Viewpoint::oblique).size(), 1U);

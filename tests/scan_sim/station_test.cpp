@@ -117,7 +117,10 @@ TEST(FoundStation, DecidesTheSidesOfACave) {
     seen.position.push_back(
         away * glm::dvec3(std::cos(rise) * std::cos(turn), std::cos(rise) * std::sin(turn), std::sin(rise)));
   }
-  EXPECT_GT(share_that_faces_origin(build_scan(seen)), 0.97);
+  const BuiltScan built = build_scan(seen);
+  EXPECT_GT(share_that_faces_origin(built), 0.97);
+  EXPECT_TRUE(built.scene.stations.at(0).sensor_found);
+  EXPECT_FALSE(built.scene.stations[0].sensor_world) << "no file says so";
 }
 
 /// A table before a wall, seen from the origin along z; votes of rays take it for whatever lies around more room.
