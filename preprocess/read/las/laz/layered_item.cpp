@@ -9,15 +9,17 @@
 namespace splatray {
 namespace {
 
-class Rgb14 final : public LayeredItem {
+/// A value of each channel that Models decode from the channel's last one.
+template <class Value, class Models>
+class ChannelValues final : public LayeredItem {
  public:
-  explicit Rgb14(unsigned version) : channels_(version) {}
+  explicit ChannelValues(unsigned version) : channels_(version) {}
 
   void start(const unsigned char* first, LazLayers layers, unsigned channel) override {
     changes_ = !layers[0].empty();
     in_.start(layers[0]);
     channels_.start(channel);
-    last_[channel] = load<StoredRgb>(first);
+    last_[channel] = load<Value>(first);
     models_[channel].reset();
   }
 
@@ -40,61 +42,28 @@ class Rgb14 final : public LayeredItem {
   LazChannels channels_;
   bool changes_ = false;
   ArithmeticDecoder in_;
-  std::array<StoredRgb, LazChannels::COUNT> last_{};
-  std::array<RgbModels, LazChannels::COUNT> models_;
+  std::array<Value, LazChannels::COUNT> last_{};
+  std::array<Models, LazChannels::COUNT> models_;
 };
 
 /// 16 bits by bytes that differ from the last.
-class Infrared14 final : public LayeredItem {
+class InfraredModels {
  public:
-  explicit Infrared14(unsigned version) : channels_(version) {}
-
-  void start(const unsigned char* first, LazLayers layers, unsigned channel) override {
-    changes_ = !layers[0].empty();
-    in_.start(layers[0]);
-    channels_.start(channel);
-    last_[channel] = load<std::uint16_t>(first);
-    models_[channel].reset();
+  void reset() {
+    changed_.reset();
+    for (auto& model : difference_) model.reset();
   }
-
-  void read(unsigned char* bytes, std::size_t stride, std::span<unsigned char> channels) override {
-    for (const unsigned channel : channels) {
-      const unsigned predictor = channels_.predictor(channel, [this](unsigned begun, unsigned before) {
-        last_[begun] = last_[before];
-        models_[begun].reset();
-      });
-      if (changes_) last_[predictor] = models_[channel].read(in_, last_[predictor]);
-      store(bytes, last_[predictor]);
-      bytes += stride;
-    }
+  void read(ArithmeticDecoder& in, std::uint16_t& last) {
+    const unsigned which = in.symbol(changed_);
+    unsigned low = last & 255U, high = last >> 8U;
+    if ((which & 1U) != 0) low = (low + in.symbol(difference_[0])) & 255U;
+    if ((which & 2U) != 0) high = (high + in.symbol(difference_[1])) & 255U;
+    last = static_cast<std::uint16_t>(low | (high << 8U));
   }
-
-  [[nodiscard]] bool is_damaged() const override { return changes_ && in_.is_damaged(); }
-  [[nodiscard]] bool is_complete() const override { return !changes_ || in_.is_complete(); }
 
  private:
-  struct Models {
-    SymbolModel<4> changed;
-    std::array<SymbolModel<256>, 2> difference;  ///< low, high
-
-    void reset() {
-      changed.reset();
-      for (auto& model : difference) model.reset();
-    }
-    std::uint16_t read(ArithmeticDecoder& in, unsigned last) {
-      const unsigned which = in.symbol(changed);
-      unsigned low = last & 255U, high = last >> 8U;
-      if ((which & 1U) != 0) low = (low + in.symbol(difference[0])) & 255U;
-      if ((which & 2U) != 0) high = (high + in.symbol(difference[1])) & 255U;
-      return static_cast<std::uint16_t>(low | (high << 8U));
-    }
-  };
-
-  LazChannels channels_;
-  bool changes_ = false;
-  ArithmeticDecoder in_;
-  std::array<std::uint16_t, LazChannels::COUNT> last_{};
-  std::array<Models, LazChannels::COUNT> models_;
+  SymbolModel<4> changed_;
+  std::array<SymbolModel<256>, 2> difference_;  ///< low, high
 };
 
 /// One of the extra bytes.
@@ -175,10 +144,12 @@ std::size_t layer_count(const LazItem& item) {
   }
 }
 
-std::unique_ptr<LayeredItem> make_rgb14(unsigned version) { return std::make_unique<Rgb14>(version); }
+std::unique_ptr<LayeredItem> make_rgb14(unsigned version) {
+  return std::make_unique<ChannelValues<StoredRgb, RgbModels>>(version);
+}
 
 std::unique_ptr<LayeredItem> make_infrared14(unsigned version) {
-  return std::make_unique<Infrared14>(version);
+  return std::make_unique<ChannelValues<std::uint16_t, InfraredModels>>(version);
 }
 
 std::unique_ptr<LayeredItem> make_bytes14(unsigned version, std::vector<bool> wanted) {
