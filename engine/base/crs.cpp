@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <initializer_list>
 #include <span>
 
@@ -173,9 +172,8 @@ std::string horizontal_crs(const std::string& text) {
 }
 
 std::string different_units(const Crs& crs) {
-  constexpr double SAME = 1e-5;
   if (!(crs.horizontal_metres > 0.0 && crs.vertical_metres > 0.0)) return "";
-  if (std::abs(crs.vertical_metres / crs.horizontal_metres - 1.0) < SAME) return "";
+  if (is_same_unit(crs.vertical_metres, crs.horizontal_metres)) return "";
   return "z is in " + length_name(crs.vertical_metres) + " while x and y are in " +
          length_name(crs.horizontal_metres);
 }

@@ -28,6 +28,11 @@ inline constexpr std::array LENGTH_UNITS = {
   return nullptr;
 }
 
+/// Whether two lengths of a unit are one unit's: they differ by less than a part in 100 000, as the two feet do, by 2e-6.
+[[nodiscard]] inline bool is_same_unit(double metres, double other_metres) {
+  return std::abs(metres / other_metres - 1.0) < 1e-5;
+}
+
 /// "feet", or "units of 0.2 m" of one without a name.
 [[nodiscard]] inline std::string length_name(double metres) {
   const LengthUnit* unit = find_length_unit(metres);

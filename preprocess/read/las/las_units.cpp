@@ -1,7 +1,5 @@
 #include "preprocess/read/las/las_units.h"
 
-#include <cmath>
-
 #include "engine/base/crs.h"
 #include "engine/base/length_unit.h"
 #include "preprocess/base/little_endian.h"
@@ -53,9 +51,8 @@ KeyedCrs crs_of_keys(const std::vector<unsigned char>& keys) {
 
 /// A sentence where the key of the unit and the unit of EPSG's system differ, by more than the two feet do.
 std::optional<std::string> contradiction(const KeyedCrs& keyed) {
-  constexpr double SAME = 1e-5;
   const double by_key = keyed.crs.horizontal_metres, by_system = epsg_system_metres(keyed.projected);
-  if (by_system == 0.0 || std::abs(by_key / by_system - 1.0) < SAME) return std::nullopt;
+  if (by_system == 0.0 || is_same_unit(by_key, by_system)) return std::nullopt;
   return "x and y are in " + length_name(by_key) + " by the file's key of units and in " +
          length_name(by_system) + " by EPSG:" + std::to_string(keyed.projected) + "; the key is taken";
 }
