@@ -254,7 +254,8 @@ UpFound upright(const Scene& scene) {
   const PointSample all = sample_points(scene), sample = main_parts(all);
   if (is_camera_frame(scene, all)) return {{0.0, -1.0, 0.0}, UpEvidence::camera};
   if (const auto up = up_of_ring(scene, sample)) return *up;
-  if (const auto up = up_of_sweep(all, scene.up); up && !first_sensor(scene)) return *up;
+  if (!first_sensor(scene))
+    if (const auto up = up_of_sweep(all, scene.up)) return *up;
   if (scene.up == glm::dvec3(0.0, 1.0, 0.0))
     if (const auto up = up_of_survey(all)) return *up;
   if (kind != SceneKind::object && kind != SceneKind::room) return {scene.up};
