@@ -118,10 +118,11 @@ std::vector<bool> find_computed(const Cloud& cloud) {
 /// Whether someone has lit the scene: points in it, scanned ones among them, are objects of a picture then.
 bool is_composed(const Scene& scene) { return !scene.lights.empty() || !scene.environment_path.empty(); }
 
-/// Whether points alone are all that there is: no surface is known of any, no radii make discs of them, no camera looks at them. They are a scan in formats that models come in, too, whether their normals are given or not.
+/// Whether points alone are all that there is: no surface is known of any, no camera looks at them. They are a scan in formats that
+/// models come in, too, whether their normals and radii are given or not.
 bool is_points_alone(const std::vector<Cloud>& clouds, const Scene& scene) {
-  const bool alone = std::all_of(clouds.begin(), clouds.end(),
-                                 [](const Cloud& cloud) { return cloud.measured && cloud.radius.empty(); });
+  const bool alone =
+      std::all_of(clouds.begin(), clouds.end(), [](const Cloud& cloud) { return cloud.measured; });
   return alone && !scene.camera;
 }
 

@@ -8,7 +8,7 @@
 namespace splatray {
 
 enum class SceneKind {
-  none,    ///< no scan: a mesh, discs with given radii, or points of a scene with its camera or lights
+  none,    ///< no scan: a mesh, or points of a scene with its camera or lights
   object,  ///< a thing, seen from outside
   site,    ///< terrain, streets, what a survey or a flight brings
   sweep,   ///< turns of a lidar on the ground: the further away, the fewer points
