@@ -145,6 +145,43 @@ TEST(Pcd, PackedColours) {
   EXPECT_EQ(color({"rgba", "I"}, "-8388351"), glm::u16vec3(128, 1, 1));
 }
 
+TEST(Pcd, GreysThatWereRoundedAreGreyAgain) {
+  const TempFolder folder;
+  std::vector<Field> fields = XYZ;
+  fields.push_back({"rgb", "F"});
+  constexpr unsigned COUNT = 4000;
+  // Colours of 100 brightnesses as the bits of floats, printed with some digits.
+  const auto colors_of = [&](int digits, const auto& blue_of) {
+    std::string rows;
+    for (unsigned i = 0; i < COUNT; ++i) {
+      const std::uint32_t level = 156 + i % 100;
+      char number[64];
+      std::snprintf(number, sizeof number, " 2 3 %.*g\n", digits,
+                    static_cast<double>(std::bit_cast<float>(level << 16U | level << 8U | blue_of(level))));
+      rows += std::to_string(i) + number;
+    }
+    return read_scan(folder.write("g.pcd", header(fields, COUNT, 1, "ascii") + rows));
+  };
+  const auto grey = [](std::uint32_t level) { return level; };
+  for (const int digits : {4, 5}) {
+    const ReadScan read = colors_of(digits, grey);
+    EXPECT_TRUE(read.has_note("lost when they were written as rounded numbers")) << digits << " digits";
+    for (std::size_t i = 0; i < COUNT; ++i) {
+      const glm::u16vec3 color = read.file.points.stored_color.at(i);
+      EXPECT_EQ(color.y, color.z);
+      EXPECT_NEAR(color.y, 156.0 + static_cast<double>(i % 100), 2.0) << "white, which rounds up, too";
+    }
+  }
+  EXPECT_EQ(colors_of(9, grey).file.points.stored_color.at(7), glm::u16vec3(163)) << "nothing is lost";
+  const auto kept = [&](const auto& blue_of) {
+    const ReadScan read = colors_of(9, blue_of);
+    EXPECT_FALSE(read.has_note("lost when"));
+    return read.file.points.stored_color.at(5);
+  };
+  EXPECT_EQ(kept([](std::uint32_t) { return 0U; }), glm::u16vec3(161, 161, 0)) << "yellow";
+  EXPECT_EQ(kept([](std::uint32_t level) { return 255U - level; }), glm::u16vec3(161, 161, 94)) << "a scale";
+}
+
 TEST(Pcd, TextIsReadAsDoubleAndFloatsFarFromTheOriginAreNoted) {
   const TempFolder folder;
   const ReadScan text = read_scan(folder.write(

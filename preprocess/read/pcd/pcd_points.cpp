@@ -42,6 +42,34 @@ bool is_color(const PcdField& field) {
   return field.type == PcdType::float32 || field.type == PcdType::uint32 || field.type == PcdType::int32;
 }
 
+/// Whether red and green are equal, to two steps, and blue jumps from one brightness to the next: greys whose packed bits were written as
+/// a float of four or five digits, as PCL's text files have them, lose their last byte, blue.
+bool have_lost_blue(const std::vector<glm::u16vec3>& colors) {
+  constexpr double EQUAL_SHARE = 0.99, TOLD_SHARE = 0.5;
+  constexpr double JUMP =
+      32.0;  // deviation of blue from what it is at the next brightness; of random bytes 74
+  constexpr double TELLING = 16.0;  // points as bright as each other, which say what is usual of them
+  std::array<std::array<double, 3>, 256> levels{};  // of green: the sums of 1, blue and its square
+  std::size_t equal = 0;
+  for (const glm::u16vec3& color : colors) {
+    equal += std::abs(int{color.x} - int{color.y}) <= 2 ? 1 : 0;
+    const double blue = color.z;
+    std::array<double, 3>& level = levels[color.y];
+    level[0] += 1.0, level[1] += blue, level[2] += blue * blue;
+  }
+  const auto all = static_cast<double>(colors.size());
+  if (static_cast<double>(equal) < EQUAL_SHARE * all) return false;
+  double told = 0.0, squares = 0.0;
+  for (std::size_t green = 0; green + 1 < levels.size(); ++green) {
+    const auto &level = levels[green], &next = levels[green + 1];
+    if (level[0] < TELLING || next[0] < TELLING) continue;
+    const double mean = level[1] / level[0], jump = next[1] / next[0] - mean;
+    told += level[0];
+    squares += level[2] - mean * level[1] + 0.5 * level[0] * jump * jump;
+  }
+  return told > TOLD_SHARE * all && squares > JUMP * JUMP * told;
+}
+
 }  // namespace
 
 /// One field's values.
@@ -193,6 +221,16 @@ Points PcdPoints::take(std::vector<std::string>& notes) {
   points_.stored_color_most = 255;
   if (std::all_of(colors.begin(), colors.end(), [](const glm::u16vec3& c) { return c == glm::u16vec3(0); }))
     release(colors);
+  if (have_lost_blue(colors)) {
+    for (glm::u16vec3& color : colors) {
+      // Zero is exact in any number of digits: blue alone is white that was rounded up, beyond the last bit of red.
+      const bool white = color.x == 0 && color.y == 0 && color.z != 0;
+      color = white ? glm::u16vec3(255) : glm::u16vec3(color.x, color.y, color.y);
+    }
+    notes.emplace_back(
+        "its colours are greys whose last byte, blue, was lost when they were written as rounded numbers; "
+        "green takes its place");
+  }
   return std::move(points_);
 }
 

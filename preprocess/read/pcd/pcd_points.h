@@ -36,8 +36,8 @@ class PcdPoints {
   [[nodiscard]] bool has_float_positions() const { return position_[0]->type == PcdType::float32; }
   /// Rows appended without a position.
   [[nodiscard]] std::uint64_t no_return() const { return no_return_; }
-  /// What was appended, with grid cells by the number of the row; colours of zeros alone are none. What was taken for granted
-  /// about colours goes to `notes`.
+  /// What was appended, with grid cells by the number of the row; colours of zeros alone are none, and greys whose blue was lost are
+  /// grey again. What was taken for granted about colours goes to `notes`.
   [[nodiscard]] Points take(std::vector<std::string>& notes);
 
  private:
