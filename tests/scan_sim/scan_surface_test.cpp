@@ -201,6 +201,29 @@ Glade glade_with_wire() {
   return glade;
 }
 
+TEST(ScanKinds, LeavesFaceTheScannerThatSawThem) {
+  const glm::dvec3 sensor(-5.0, 20.0, 4.0);
+  Input input;
+  input.up = glm::dvec3(0.0, 0.0, 1.0);
+  input.objects.push_back(glade_with_wire().object);
+  input.objects[0].points.stations = {Station{"", sensor}};
+  BuildStats stats;
+  const Scene scene = build_scene(std::move(input), {}, 0, stats);
+  const Column &number = *find_column(scene.columns, POINT_NUMBER),
+               &kinds = *find_column(scene.columns, COLUMN_KIND);
+  std::size_t leaves = 0;
+  for (std::size_t s = 0; s < scene.data_pool.size(); ++s) {
+    const auto i = static_cast<std::size_t>(number.number(s));
+    const bool leaf = i >= Glade::GROUND && i < Glade::GROUND + Glade::LEAVES;
+    if (!leaf || kinds.number(s) == 0.0) continue;
+    const Splat splat = unpack_splat(scene.data_pool[s]);
+    const glm::dvec3 to_sensor = glm::normalize(sensor - scene.root.to_world(splat.center));
+    EXPECT_GT(glm::dot(glm::dvec3(splat.normal), to_sensor), 0.999) << s;
+    ++leaves;
+  }
+  EXPECT_GT(leaves, Glade::LEAVES * 9 / 10);
+}
+
 TEST(ScanKinds, GroundLeavesAndWiresAreDistinguished) {
   Input input;
   input.up = glm::dvec3(0.0, 0.0, 1.0);
