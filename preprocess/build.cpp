@@ -148,8 +148,8 @@ void find_all_surfaces(std::vector<Cloud>& clouds, Scene& scene, const glm::dvec
     for (std::size_t s = 0; s < std::min(stations, cloud.stations.size()); ++s) {
       scene.stations[station + s].noise_world = cloud.stations[s].noise_world;
       scene.stations[station + s].step_world = cloud.stations[s].step_world;
-      scene.stations[station + s].sensor_found =
-          !scene.stations[station + s].sensor_world && cloud.stations[s].sensor_world;
+      if (!scene.stations[station + s].sensor_world)
+        scene.stations[station + s].sensor_found_world = cloud.stations[s].sensor_world;
     }
     station += stations;
   }

@@ -31,11 +31,11 @@ Camera value_of(const CameraRecord& record) {
 }
 
 StationRecord record_of(const Station& station) {
-  return {station.sensor_world.value_or(glm::dvec3(0.0)),
+  return {sensor_place_world(station).value_or(glm::dvec3(0.0)),
           station.sensor_world ? 1U : 0U,
           station.rows,
           station.columns,
-          station.sensor_found ? 1U : 0U,
+          station.sensor_found_world ? 1U : 0U,
           station.noise_world,
           station.step_world};
 }
@@ -43,7 +43,7 @@ StationRecord record_of(const Station& station) {
 Station value_of(const StationRecord& record) {
   Station station;
   if (record.has_sensor != 0) station.sensor_world = record.sensor;
-  station.sensor_found = record.sensor_found != 0;
+  if (record.sensor_found != 0) station.sensor_found_world = record.sensor;
   station.rows = record.rows;
   station.columns = record.columns;
   station.noise_world = record.noise;

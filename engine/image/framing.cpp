@@ -10,6 +10,7 @@
 #include "engine/image/point_sample.h"
 #include "engine/image/scan_kind.h"
 #include "engine/image/view.h"
+#include "engine/image/view_check.h"
 
 namespace splatray {
 namespace {
@@ -189,21 +190,22 @@ SensorFrame sensor_frame(const PointSample& sample, const glm::dvec3& sensor, co
 }
 
 /// Turns a camera in the place of a sensor whose picture is full to the picture's middle, and crops that to the shape of the one made,
-/// by CROP_MOST at most.
-void fill_with_frame(const PointSample& sample, double aspect, Camera& camera) {
+/// by CROP_MOST at most; else leaves it and returns false.
+bool fill_with_frame(const PointSample& sample, double aspect, Camera& camera) {
   const double distance = glm::distance(camera.eye, camera.target);
   glm::dvec3 ahead = (camera.target - camera.eye) / distance;
   SensorFrame frame = sensor_frame(sample, camera.eye, ahead, camera.up);
-  if (frame.filled < SENSOR_FILLED) return;
+  if (frame.filled < SENSOR_FILLED) return false;
   const glm::dvec2 middle = 0.5 * (frame.low + frame.high);
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, camera.up));
   ahead = glm::normalize(ahead + middle.x * right + middle.y * glm::cross(right, ahead));
   frame = sensor_frame(sample, camera.eye, ahead, camera.up);
-  if (frame.filled < SENSOR_FILLED) return;
+  if (frame.filled < SENSOR_FILLED) return false;
   camera.target = camera.eye + distance * ahead;
   const glm::dvec2 half = 0.5 * (frame.high - frame.low) / glm::dvec2(aspect, 1.0);
   const double slope = std::max(std::min(half.x, half.y), std::max(half.x, half.y) / CROP_MOST);
   camera.fov_y_deg = std::clamp(2.0 * std::atan(slope) / DEG, 1.0, SENSOR_MOST_DEG);
+  return true;
 }
 
 /// From the first sensor's place, as wide as holds what it saw, or filled with it where that fills a frame.
@@ -237,14 +239,18 @@ Camera camera_at_sensor(const Scene& scene, const glm::dvec3& sensor, double asp
   return camera;
 }
 
-/// A depth camera's own view, cropped to the picture's shape where that is wider than its grid.
+/// A depth camera's own view, filled with what it saw where that fills a frame, else cropped to the picture's shape where that is wider
+/// than its grid.
 Camera cropped_camera(const Scene& scene, double aspect, std::optional<double> fov_y_deg) {
   Camera camera = *scene.camera;
-  double grid = aspect;
-  for (const Station& station : scene.stations)
-    if (station.rows > 0 && station.columns > 0) grid = static_cast<double>(station.columns) / station.rows;
-  const double crop = std::clamp(aspect / grid, 1.0, CROP_MOST);
-  camera.fov_y_deg = fov_y_deg.value_or(2.0 * std::atan(std::tan(0.5 * camera.fov_y_deg * DEG) / crop) / DEG);
+  if (!fill_with_frame(framed_points(scene, {}), aspect, camera)) {
+    double grid = aspect;
+    for (const Station& station : scene.stations)
+      if (station.rows > 0 && station.columns > 0) grid = static_cast<double>(station.columns) / station.rows;
+    const double crop = std::clamp(aspect / grid, 1.0, CROP_MOST);
+    camera.fov_y_deg = 2.0 * std::atan(std::tan(0.5 * camera.fov_y_deg * DEG) / crop) / DEG;
+  }
+  camera.fov_y_deg = fov_y_deg.value_or(camera.fov_y_deg);
   return camera;
 }
 
@@ -291,6 +297,27 @@ glm::dvec3 roomy_place(const PointSample& sample, const glm::dmat3& axes, const 
   return best;
 }
 
+/// Which way a scan whose walls do not close it in is looked at from within: of 16 level directions, a little down, the one that shows
+/// most, little of it next to the eye and in one plane.
+glm::dvec3 direction_outside(const PointSample& sample, Camera camera, const glm::dmat3& axes) {
+  constexpr int DIRECTIONS = 16;
+  constexpr double DOWN = 0.08;  // of the way ahead
+  glm::dvec3 best = -axes[2];
+  double most = -1.0;
+  for (int i = 0; i < DIRECTIONS; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / DIRECTIONS;
+    const glm::dvec3 ahead =
+        glm::normalize(std::cos(turn) * axes[0] + std::sin(turn) * axes[2] - DOWN * axes[1]);
+    camera.target = camera.eye + ahead;
+    const ViewFigures figures = view_figures(sample, camera, false);
+    const double shown = (1.0 - figures.background) * (1.0 - figures.near) * (1.0 - figures.plane);
+    if (!(shown > most)) continue;
+    most = shown;
+    best = ahead;
+  }
+  return best;
+}
+
 Camera camera_inside(const Scene& scene, double fov_y_deg, const Region& region) {
   const PointSample sample = framed_points(scene, region);
   const glm::dmat3 axes = upright_axes(scene.up);
@@ -310,10 +337,18 @@ Camera camera_inside(const Scene& scene, double fov_y_deg, const Region& region)
   ahead -= glm::dot(ahead, axes[1]) * axes[1];
   if (glm::length(ahead) < CENTRAL * scene.diagonal_world()) ahead = size.x > size.z ? axes[0] : -axes[2];
   const double distance = 0.5 * std::max({size.x, size.z, scene.root.unit_world});
-  camera.target = camera.eye + distance * glm::normalize(ahead);
   camera.up = axes[1];
   camera.fov_y_deg = fov_y_deg;
+  ahead = sensor && !free ? direction_outside(sample, camera, axes) : glm::normalize(ahead);
+  camera.target = camera.eye + distance * ahead;
   return camera;
+}
+
+/// Whether a file says of one of a room's scanners that it stood in it: rooms whose scanner's place was found are looked into from above.
+bool stands_within(const Scene& scene) {
+  return std::any_of(scene.stations.begin(), scene.stations.end(),
+                     [](const Station& station) { return station.sensor_world.has_value(); }) &&
+         station_within(scene, main_parts(sample_points(scene)));
 }
 
 }  // namespace
@@ -323,10 +358,10 @@ Viewpoint choose_viewpoint(const Scene& scene) {
     case SceneKind::camera:
       return Viewpoint::sensor;
     case SceneKind::room:
-      return station_within(scene, main_parts(sample_points(scene))) ? Viewpoint::inside
-                                                                     : Viewpoint::dollhouse;
-    case SceneKind::site:
+      return stands_within(scene) ? Viewpoint::inside : Viewpoint::dollhouse;
     case SceneKind::sweep:
+      return first_sensor(scene) ? Viewpoint::inside : Viewpoint::oblique;
+    case SceneKind::site:
       return Viewpoint::oblique;
     default:
       return is_model_of_room(scene) ? Viewpoint::inside : Viewpoint::front;

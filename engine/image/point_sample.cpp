@@ -177,7 +177,19 @@ PointSample main_parts(const PointSample& sample) {
   return kept;
 }
 
+bool is_in_field_of(const PointSample& sample, const glm::dvec3& place) {
+  const glm::dvec3 ahead = ahead_of(sample, place);
+  std::size_t wide = 0, narrow = 0;
+  for (const glm::dvec3& point : sample.position) {
+    const double cosine = glm::dot(point - place, ahead) / glm::distance(point, place);
+    wide += cosine > std::cos(CAMERA_DEG * DEGREE) ? 1 : 0;
+    narrow += cosine > std::cos(NARROW_DEG * DEGREE) ? 1 : 0;
+  }
+  return share_of(wide, sample.size()) >= CAMERA_SHARE && share_of(narrow, sample.size()) <= CAMERA_SHARE;
+}
+
 bool is_seen_from(const PointSample& sample, const glm::dvec3& place) {
+  if (!is_in_field_of(sample, place)) return false;
   const glm::dvec3 ahead = ahead_of(sample, place);
   const glm::dmat3 axes = upright_axes(ahead);
   std::array<double, FIELD_CELLS * FIELD_CELLS> nearest;
@@ -190,17 +202,13 @@ bool is_seen_from(const PointSample& sample, const glm::dvec3& place) {
     };
     return along(q.x) * FIELD_CELLS + along(q.z);
   };
-  std::size_t wide = 0, narrow = 0, behind = 0;
+  std::size_t behind = 0;
   for (const glm::dvec3& point : sample.position) {
     const double distance = glm::distance(point, place), cosine = glm::dot(point - place, ahead) / distance;
     if (!(cosine > std::cos(CAMERA_DEG * DEGREE))) continue;
-    ++wide;
-    if (cosine > std::cos(NARROW_DEG * DEGREE)) ++narrow;
     double& first = nearest[cell_of(point)];
     first = std::min(first, distance);
   }
-  if (share_of(wide, sample.size()) < CAMERA_SHARE || share_of(narrow, sample.size()) > CAMERA_SHARE)
-    return false;
   for (const glm::dvec3& point : sample.position)
     if (glm::dot(point - place, ahead) > 0.0 &&
         glm::distance(point, place) > BEHIND * nearest[cell_of(point)])

@@ -34,8 +34,9 @@ struct PointSample {
 [[nodiscard]] glm::dvec3 robust_size(const PointSample& sample, const glm::dmat3& axes);
 /// Whether points are less than 0.3 times as high, along the second of three axes, as wide (robust_size).
 [[nodiscard]] bool is_flat(const PointSample& sample, const glm::dmat3& axes);
-/// Whether 98 % of the points lie within 50 degrees of one direction from a place, as in a camera's field, but not within 8, and seven
-/// tenths have no other 10 % closer before them: four depth cameras' points have it for 0.19 to 0.26, sweeps and things for 0.32 and more.
+/// Whether 98 % of the points lie within 50 degrees of one direction from a place, as in a camera's field, but not within 8.
+[[nodiscard]] bool is_in_field_of(const PointSample& sample, const glm::dvec3& place);
+/// Whether that holds and seven tenths have no other 10 % closer before them: four depth cameras' points have it for 0.19 to 0.26, sweeps and things for 0.32 and more.
 [[nodiscard]] bool is_seen_from(const PointSample& sample, const glm::dvec3& place);
 
 /// Whether all was seen from the origin along z: the frame of a depth camera. What lies flat where `up`, its format's, is z is none:

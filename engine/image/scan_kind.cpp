@@ -153,7 +153,7 @@ const char* scan_kind_name(SceneKind kind) {
 
 std::optional<glm::dvec3> first_sensor(const Scene& scene) {
   for (const Station& station : scene.stations)
-    if (station.sensor_world) return station.sensor_world;
+    if (const auto place = sensor_place_world(station)) return place;
   return {};
 }
 
@@ -165,7 +165,7 @@ bool is_camera_frame(const Scene& scene, const PointSample& sample) {
 std::optional<glm::dvec3> seeing_place(const Scene& scene, const PointSample& sample) {
   if (scene.stations.size() != 1) return {};
   const std::optional<glm::dvec3> sensor = scene.stations.front().sensor_world;
-  if (sensor) return is_seen_from(sample, *sensor) ? sensor : std::nullopt;
+  if (sensor) return is_in_field_of(sample, *sensor) ? sensor : std::nullopt;
   return is_seen_along_z(sample, scene.up) ? std::optional(glm::dvec3(0.0)) : std::nullopt;
 }
 
@@ -194,8 +194,9 @@ std::optional<glm::dvec3> station_within(const Scene& scene, const PointSample& 
   const glm::dmat3 axes = upright_axes(scene.up);
   const double reach = FREE_SHARE * scene.diagonal_world();
   for (const Station& station : scene.stations) {
-    if (!station.sensor_world) continue;
-    const glm::dvec3 place = *station.sensor_world;
+    const std::optional<glm::dvec3> sensor = sensor_place_world(station);
+    if (!sensor) continue;
+    const glm::dvec3 place = *sensor;
     const auto near = std::count_if(sample.position.begin(), sample.position.end(),
                                     [&](const glm::dvec3& p) { return glm::distance(p, place) < reach; });
     if (share_of(static_cast<std::size_t>(near), sample.size()) < FREE_POINTS &&

@@ -41,8 +41,8 @@ enum class SceneKind {
 /// from the origin along z (is_seen_along_z); or it has one layer along z, near the origin, whose normals look
 /// to -z on the mean, by more than 0.3: no scan from above or around does.
 [[nodiscard]] bool is_camera_frame(const Scene& scene, const PointSample& sample);
-/// The one place from which all was seen, where there is such a place: that of the only station, or the origin of a
-/// camera's frame, if all was (is_seen_from).
+/// The one place from which all was seen, where there is such a place: that of the only station, if all lies in a camera's field from
+/// there (is_in_field_of), or the origin of a camera's frame, if all was seen from there (is_seen_from).
 [[nodiscard]] std::optional<glm::dvec3> seeing_place(const Scene& scene, const PointSample& sample);
 /// Whether points surround a place on all sides and above: in 12 of 12 sectors of azimuth some lie
 /// within 30 degrees of level, and in 18 of 24 parts of equal area of the sky above 45 degrees. Not by shares of all

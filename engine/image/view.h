@@ -140,8 +140,9 @@ enum class Viewpoint {
   sensor,     ///< from where a depth camera or scanner was, as it saw; front where no place is known
 };
 
-/// By kind_of_scan (scan_kind.h): from the sensor what one saw, into rooms from inside where a station stands free in them, and into models of
-/// rooms, else as into a doll's house; sites and sweeps oblique, all else from the front.
+/// By kind_of_scan (scan_kind.h): from the sensor what one saw, into rooms from inside where a file says that a station stands free in them,
+/// and into models of rooms, else as into a doll's house; sweeps from the scanner's place, from which they have no gaps, where it is known
+/// or found, else oblique as sites; all else from the front.
 [[nodiscard]] Viewpoint choose_viewpoint(const Scene& scene);
 /// "front" and so on.
 [[nodiscard]] const char* viewpoint_name(Viewpoint viewpoint);

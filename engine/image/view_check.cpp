@@ -79,7 +79,7 @@ Camera from_other_side(Camera camera, const glm::dvec3& up) {
 bool has_measured_sides(const Scene& scene) {
   return !scene.stations.empty() &&
          std::all_of(scene.stations.begin(), scene.stations.end(),
-                     [](const Station& station) { return station.sensor_world || station.sensor_found; });
+                     [](const Station& station) { return sensor_place_world(station).has_value(); });
 }
 
 bool is_outside(Viewpoint viewpoint) {
@@ -139,9 +139,11 @@ CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint 
 std::vector<CheckedView> check_views(const Scene& scene, SceneKind kind, Viewpoint first) {
   if (kind == SceneKind::none || kind == SceneKind::camera) return {{first}};
   const PointSample sample = main_parts(sample_points(scene));
-  const bool from_above = first == Viewpoint::dollhouse;
+  std::vector<Viewpoint> views{first};
+  if (kind == SceneKind::sweep && first == Viewpoint::inside) views.push_back(Viewpoint::oblique);
+  views.push_back(first == Viewpoint::dollhouse ? Viewpoint::inside : Viewpoint::dollhouse);
   std::vector<CheckedView> checked;
-  for (const Viewpoint viewpoint : {first, from_above ? Viewpoint::inside : Viewpoint::dollhouse}) {
+  for (const Viewpoint viewpoint : views) {
     checked.push_back(check_view(scene, sample, viewpoint));
     if (checked.back().fault == ViewFault::none) return checked;
   }

@@ -48,7 +48,7 @@ struct CheckedView {
 [[nodiscard]] CheckedView check_view(const Scene& scene, const PointSample& sample, Viewpoint viewpoint);
 
 /// The views of a scan of this kind that are tried, ending with the first without a fault, which is to be shown: `first`, the kind's own,
-/// then of rooms the other one of inside and doll's house, of all else the doll's house. Where all have faults the first
+/// then of rooms the other one of inside and doll's house, of sweeps seen from inside the oblique one, of all but rooms the doll's house. Where all have faults the first
 /// stands again at the end. A single one of what needs no check: models and what one sensor saw.
 [[nodiscard]] std::vector<CheckedView> check_views(const Scene& scene, SceneKind kind, Viewpoint first);
 

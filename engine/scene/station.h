@@ -19,9 +19,13 @@ struct Station {
   /// explains how far smoothing moved them; 0 = unknown.
   double noise_world = 0.0;
   double step_world = 0.0;  ///< what its coordinates are multiples of, along the coarsest axis; 0 = unknown
-  /// The points show where the scanner was, and their normals face it; views do not stand there, as no file says so.
-  bool sensor_found = false;
+  std::optional<glm::dvec3> sensor_found_world{};  ///< where the points show that the scanner was, where no file says it
 };
+
+/// Where the scanner was, by its file or else by its points.
+[[nodiscard]] inline std::optional<glm::dvec3> sensor_place_world(const Station& station) {
+  return station.sensor_world ? station.sensor_world : station.sensor_found_world;
+}
 
 /// The largest noise of several; 0 = unknown.
 [[nodiscard]] inline double most_noise_world(const std::vector<Station>& stations) {

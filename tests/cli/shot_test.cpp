@@ -194,6 +194,25 @@ TEST(Shot, RoomsLieOpenUnlessAScannerStandsInThem) {
   EXPECT_FALSE(inside.settings.cutaway);
 }
 
+/// The studio's lamps stand where the camera of a front view has them beside it, whichever way a scanner looked.
+TEST(Shot, TheStudioTurnsToWhereAScannerLooked) {
+  OrientedPoints wall;
+  for (int i = 0; i < 3600; ++i)
+    wall.emplace_back(glm::dvec3(3.0, 0.05 * (i % 60 - 30), 0.05 * (i / 60 - 30)), glm::dvec3(-1, 0, 0));
+  Scene scene = scan_scene(wall);
+  scene.stations[0].sensor_world = glm::dvec3(0.0);
+  EXPECT_EQ(
+      said(shot_of(scene)),
+      "what one sensor saw: --view sensor --color-by plain --look lit --environment-turn 0.75 --denoise");
+  EXPECT_EQ(shot_of(scene).settings.environment_turn, 0.75F);
+  Request asked;
+  asked.settings.environment_turn = 0.5F;
+  EXPECT_EQ(shot_of(scene, asked).settings.environment_turn, 0.5F);
+  asked = {};
+  asked.look.environment = "sky:30,120";
+  EXPECT_EQ(shot_of(scene, asked).settings.environment_turn, 0.0F) << "the sun stands where it was asked for";
+}
+
 TEST(Shot, DrawingsWithoutColoursAreOnWhitePaper) {
   const auto drawn = [](Scene scene, Request asked = {}) {
     asked.view.sheet = SheetRequest{};

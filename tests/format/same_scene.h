@@ -18,7 +18,7 @@ inline void expect_same_points(const Scene& a, const Scene& b) {
     const Station &one = a.stations[i], &other = b.stations[i];
     EXPECT_EQ(one.name, other.name);
     EXPECT_EQ(one.sensor_world, other.sensor_world);
-    EXPECT_EQ(one.sensor_found, other.sensor_found);
+    EXPECT_EQ(one.sensor_found_world, other.sensor_found_world);
     EXPECT_EQ(one.rows, other.rows);
     EXPECT_EQ(one.columns, other.columns);
     EXPECT_EQ(one.noise_world, other.noise_world);

@@ -16,7 +16,7 @@ constexpr std::uint32_t OPTIONAL = 1;
 class SceneSections : public SceneFile {
  protected:
   void SetUp() override {
-    scene.stations[1].sensor_found = true;
+    scene.stations[1].sensor_found_world = glm::dvec3(1.0, 2.0, -3.0);
     sections = sections_of(written(scene));
   }
 

@@ -206,6 +206,25 @@ TEST(Viewpoint, OfASensorIsFilledWithWhatFillsItsFrame) {
   EXPECT_GE(std::tan(0.5 * whole.fov_y_deg * DEG), 0.28) << "a thing is seen whole";
 }
 
+/// A grid of 640 x 480 whose first columns saw nothing, as those of a stereo camera.
+TEST(Viewpoint, OfADepthCameraIsFilledWithWhatItSaw) {
+  OrientedPoints seen;
+  for (int row = 0; row < 96; ++row)
+    for (int column = 32; column < 128; ++column)
+      seen.emplace_back(2.0 * glm::dvec3((column - 63.5) / 120.0, (row - 47.5) / 120.0, 1.0),
+                        glm::dvec3(0, 0, -1));
+  Scene scene = scan_scene(seen);
+  scene.up = {0.0, -1.0, 0.0};
+  scene.stations[0].rows = 96;
+  scene.stations[0].columns = 128;
+  scene.camera = Camera{.eye = {0, 0, 0}, .target = {0, 0, 1}, .up = {0, -1, 0}};
+  scene.camera->fov_y_deg = 2.0 * std::atan(48.0 / 120.0) / DEG;
+  const Camera camera = viewpoint_camera(scene, Viewpoint::sensor, 4.0 / 3.0, {});
+  EXPECT_EQ(camera.eye, glm::dvec3(0.0));
+  EXPECT_NEAR(glm::normalize(camera.target).x, 16.0 / 120.0, 0.01) << "to the middle of what it saw";
+  EXPECT_NEAR(std::tan(0.5 * camera.fov_y_deg * DEG), 0.75 * 48.0 / 120.0, 0.01) << "and as wide as that";
+}
+
 TEST(FramingCamera, OfAScanIgnoresStrays) {
   OrientedPoints points = box_points({4.0, 5.0, 3.0}, true);
   const Camera clean = framing_camera(scan_scene(points), 1.5);

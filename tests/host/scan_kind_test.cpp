@@ -113,11 +113,34 @@ TEST(CheckedViews, ACaveThatWasScannedFromWithinOpens) {
   }
   scene.stations[0].sensor_world.reset();
   EXPECT_EQ(check_views(scene, SceneKind::sweep, Viewpoint::oblique).size(), 1U) << "the sides are a guess";
-  scene.stations[0].sensor_found = true;
+  scene.stations[0].sensor_found_world = glm::dvec3(0.0, 0.0, 0.5);
   EXPECT_EQ(check_views(scene, SceneKind::sweep, Viewpoint::oblique).back().viewpoint, Viewpoint::dollhouse);
   Scene open = scan_scene(ground(true));
   open.stations[0].sensor_world = glm::dvec3(0.0, 0.0, 6.0);
   EXPECT_EQ(check_views(open, SceneKind::sweep, Viewpoint::oblique).size(), 1U);
+}
+
+TEST(CheckedViews, SweepsAreSeenFromTheirScannersPlace) {
+  Scene sweep = scan_scene(ground(true));
+  EXPECT_EQ(choose_viewpoint(sweep), Viewpoint::oblique) << "no place is known";
+  const glm::dvec3 place(0.0, 0.0, 6.0);
+  sweep.stations[0].sensor_found_world = place;
+  EXPECT_EQ(choose_viewpoint(sweep), Viewpoint::inside);
+  EXPECT_EQ(viewpoint_camera(sweep, Viewpoint::inside, 1.5, {}).eye, place);
+  const std::vector<CheckedView> views = check_views(sweep, SceneKind::sweep, Viewpoint::inside);
+  EXPECT_EQ(views[0].fault, ViewFault::one_plane) << "a bare hill";
+  EXPECT_EQ(views.back().viewpoint, Viewpoint::oblique);
+  OrientedPoints yard = ground(true);
+  for (int i = 0; i < 4000; ++i)  // a house at the side where the fewest points are
+    yard.emplace_back(glm::dvec3(-8.0, 0.002 * i - 4.0, 10.0 * std::fmod(i * std::numbers::phi, 1.0)),
+                      glm::dvec3(1.0, 0.0, 0.0));
+  for (int i = 0; i < 12000; ++i)
+    yard.emplace_back(glm::dvec3(30.0 + 1e-3 * i, std::fmod(0.37 * i, 9.0), 0.0), glm::dvec3(0, 0, 1));
+  Scene lived = scan_scene(yard);
+  lived.stations[0].sensor_world = place;
+  const Camera camera = viewpoint_camera(lived, Viewpoint::inside, 1.5, {});
+  EXPECT_LT(glm::normalize(camera.target - camera.eye).x, -0.7)
+      << "to the house, not to where most points are";
 }
 
 TEST(DollHouse, IsLookedIntoFromWhereItsWallsFace) {
@@ -191,6 +214,23 @@ TEST(SceneKind, WhatIsSeenFromOnePlaceIsASensorsView) {
   scene.stations.resize(1);
   scene.stations[0].sensor_world = glm::dvec3(0.0, -0.5, 1.0);
   EXPECT_EQ(kind_of_scan(scene), SceneKind::object) << "from too near to be seen at one glance";
+}
+
+/// A street with a car in it, cut to what lies before the car that scanned it: its trees hide what is behind them, and much is seen past
+/// them.
+TEST(SceneKind, WhatAKnownScannerSawAheadIsItsView) {
+  OrientedPoints street;
+  for (int i = 0; i < 9000; ++i) {
+    const double along = 5.0 + 0.005 * i, across = std::fmod(i * std::numbers::phi, 1.0) - 0.5;
+    street.emplace_back(glm::dvec3(along, along * across, -1.7), glm::dvec3(0, 0, 1));
+    if (i % 3 == 0) street.emplace_back(glm::dvec3(along, 3.0, 2.0 * across), glm::dvec3(0, -1, 0));
+    if (i % 3 == 1) street.emplace_back(glm::dvec3(along, 6.0, 3.0 * across), glm::dvec3(0, -1, 0));
+  }
+  Scene scene = scan_scene(street);
+  EXPECT_NE(kind_of_scan(scene), SceneKind::camera) << "that it was seen from the origin is a guess";
+  scene.stations[0].sensor_world = glm::dvec3(0.0);
+  EXPECT_EQ(kind_of_scan(scene), SceneKind::camera);
+  EXPECT_EQ(choose_viewpoint(scene), Viewpoint::sensor);
 }
 
 TEST(SceneKind, ACamerasFrameIsKnownByItsOrigin) {

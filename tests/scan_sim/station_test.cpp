@@ -119,7 +119,8 @@ TEST(FoundStation, DecidesTheSidesOfACave) {
   }
   const BuiltScan built = build_scan(seen);
   EXPECT_GT(share_that_faces_origin(built), 0.97);
-  EXPECT_TRUE(built.scene.stations.at(0).sensor_found);
+  ASSERT_TRUE(built.scene.stations.at(0).sensor_found_world);
+  EXPECT_LT(glm::length(*built.scene.stations[0].sensor_found_world), 0.3) << "views stand there";
   EXPECT_FALSE(built.scene.stations[0].sensor_world) << "no file says so";
 }
 

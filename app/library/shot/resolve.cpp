@@ -122,6 +122,26 @@ void resolve_environment(const Scene& scene, Shot& shot) {
   note(shot, "environment-strength", text_of(request.settings.environment_strength));
 }
 
+/// Turns the studio to where a scan is looked at from among its points, so that its lamps stand beside the camera as they do for what is
+/// seen from outside, and not in the picture.
+void resolve_studio_turn(const Scene& scene, Shot& shot) {
+  Request& request = shot.request;
+  const bool within =
+      request.view.viewpoint == Viewpoint::sensor || request.view.viewpoint == Viewpoint::inside;
+  const bool in_studio = request.look.environment.empty() && scene.environment_path.empty() &&
+                         request.settings.environment_turn == Settings{}.environment_turn;
+  if (scene.stations.empty() || shot.settings.look != LOOK_LIT || !within || !in_studio) return;
+  const glm::dmat3 axes = upright_axes(scene.up);
+  const glm::dvec3 ahead = shot.view.camera.target - shot.view.camera.eye;
+  const double turns =
+      std::atan2(-glm::dot(ahead, axes[0]), -glm::dot(ahead, axes[2])) / (2.0 * std::numbers::pi);
+  request.settings.environment_turn =
+      static_cast<float>(std::round(1000.0 * (turns - std::floor(turns))) / 1000.0);
+  if (request.settings.environment_turn == Settings{}.environment_turn) return;
+  shot.settings.environment_turn = request.settings.environment_turn;
+  note(shot, "environment-turn", text_of(request.settings.environment_turn));
+}
+
 /// Whether the exposure is the picture's where none is asked for: of scans, whose colours are as bright as their scanner took them,
 /// within rooms, where little of the light comes, and in light of physical units.
 bool exposes_by_default(const Scene& scene, const Request& request, std::uint32_t look) {
@@ -335,6 +355,7 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
     request.settings.reach_world = REACH_SHARE * whole.diagonal_world();
   shot.settings.reach_world = request.settings.reach_world;
   resolve_environment(scene, shot);
+  resolve_studio_turn(whole, shot);
   choose_denoise(shot);
   shot.exposes = !request.look.exposure_ev && exposes_by_default(scene, request, shot.settings.look);
   shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;
