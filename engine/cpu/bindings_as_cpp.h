@@ -95,10 +95,11 @@ vec3 environment_texel(vec2 position) {
   const int height = static_cast<int>(bound->environment_height);
   const vec2 at = position * vec2(width, height) - 0.5F;
   const vec2 corner = floor(at), share = at - corner;
-  const auto texel = [&](int x, int y) {
-    const int column = ((static_cast<int>(corner.x) + x) % width + width) % width;
+  const int first = clamp(static_cast<int>(corner.x), -1, width - 1);  // whatever a direction is that is none
+  const std::array<int, 2> columns{first < 0 ? width - 1 : first, first + 1 < width ? first + 1 : 0};
+  const auto texel = [&](uint x, int y) {
     const int row = clamp(static_cast<int>(corner.y) + y, 0, height - 1);
-    return vec3(environment_texels[static_cast<uint>(row * width + column)]);
+    return vec3(environment_texels[static_cast<uint>(row * width + columns[x])]);
   };
   return mix(mix(texel(0, 0), texel(1, 0), share.x), mix(texel(0, 1), texel(1, 1), share.x), share.y);
 }
@@ -107,11 +108,16 @@ void count(uint counter, uint amount) { (*counted)[counter] += amount; }
 
 uint group_number() { return group_now; }
 
-/// Runs `thread` for each thread of a group.
-template <class Thread>
-void run_group(const KernelWork& work, uint group, Counts& counts, const Thread& thread) {
+/// Has this thread of the host work at a group.
+void begin_group(const KernelWork& work, uint group, Counts& counts) {
   bound = &work;
   counted = &counts;
   group_now = group;
+}
+
+/// Runs `thread` for each thread of a group.
+template <class Thread>
+void run_group(const KernelWork& work, uint group, Counts& counts, const Thread& thread) {
+  begin_group(work, group, counts);
   for (lane_now = 0; lane_now < GROUP_SIZE; ++lane_now) thread();
 }

@@ -24,9 +24,12 @@ vec2 environment_position(vec3 dir) {
   return vec2(column, row);
 }
 
+/// Radiance from where environment_position() has a direction; ENVIRONMENT alone.
+vec3 environment_at(vec2 position) { return frame.environment * environment_texel(position); }
+
 /// Radiance from the environment.
 vec3 environment_radiance(vec3 dir) {
-  if (ENVIRONMENT) return frame.environment * environment_texel(environment_position(to_environment(dir)));
+  if (ENVIRONMENT) return environment_at(environment_position(to_environment(dir)));
   return frame.environment;
 }
 

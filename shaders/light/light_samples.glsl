@@ -77,9 +77,10 @@ LightSample light_sample(Receiver receiver, vec3 random) {
   LightSample chosen = no_light_sample(receiver);
   float choice = random.z;
   if (SKY && (frame.light_nodes == 0u || choice < frame.sky_share)) {
-    chosen.dir = sky_sample(vec2(random), chosen.pdf);
+    vec2 at = vec2(0.0f);
+    chosen.dir = sky_sample(vec2(random), at, chosen.pdf);
     chosen.pdf *= frame.sky_share;
-    chosen.radiance = environment_radiance(chosen.dir) / chosen.pdf;
+    chosen.radiance = environment_at(at) / chosen.pdf;
     return chosen;
   }
   choice = SKY ? min((choice - frame.sky_share) / (1.0f - frame.sky_share), 0.99999994f) : choice;

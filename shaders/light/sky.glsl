@@ -39,8 +39,8 @@ float sky_cell_pdf(float row_share, float column_share, vec3 dir) {
   return row_share * column_share * float(frame.sky_width * frame.sky_height) / (TWO_PI_SQUARED * sine);
 }
 
-/// A direction of the world; `pdf` per solid angle.
-vec3 sky_sample(vec2 random, OUT(float) pdf) {
+/// A direction of the world; `at` is its environment_position(), `pdf` per solid angle.
+vec3 sky_sample(vec2 random, OUT(vec2) at, OUT(float) pdf) {
   uint key_row = uint(random.y * 16777216.0f) << 8u;
   uint key_column = uint(random.x * 16777216.0f) << 8u;
   uint row = sky_find(0u, frame.sky_height, key_row);
@@ -48,20 +48,18 @@ vec3 sky_sample(vec2 random, OUT(float) pdf) {
   uint column = sky_find(begin, frame.sky_width, key_column);
   float row_share = sky_share(0u, frame.sky_height, row);
   float column_share = sky_share(begin, frame.sky_width, column);
-  float x = (float(column) + sky_again(begin, column, key_column, column_share)) / float(frame.sky_width);
-  float y = (float(row) + sky_again(0u, row, key_row, row_share)) / float(frame.sky_height);
-  float phi = TWO_PI * (x - 0.5f);
-  float cosine = cos(PI * y);
+  at.x = (float(column) + sky_again(begin, column, key_column, column_share)) / float(frame.sky_width);
+  at.y = (float(row) + sky_again(0u, row, key_row, row_share)) / float(frame.sky_height);
+  float phi = TWO_PI * (at.x - 0.5f);
+  float cosine = cos(PI * at.y);
   float sine = sqrt(max(1.0f - cosine * cosine, 0.0f));
   vec3 dir = vec3(sine * sin(phi), cosine, -sine * cos(phi));
   pdf = sky_cell_pdf(row_share, column_share, dir);
   return from_environment(dir);
 }
 
-/// sky_sample's probability per solid angle of a direction of the world.
-float sky_pdf(vec3 dir) {
-  vec3 own = to_environment(dir);
-  vec2 at = environment_position(own);
+/// sky_sample's probability per solid angle of a direction of the environment's own frame, whose environment_position() is `at`.
+float sky_pdf(vec3 own, vec2 at) {
   uint row = min(uint(at.y * float(frame.sky_height)), frame.sky_height - 1u);
   uint column = min(uint(at.x * float(frame.sky_width)), frame.sky_width - 1u);
   uint begin = frame.sky_height + row * frame.sky_width;

@@ -74,25 +74,32 @@ bool light_met_alone() {
 /// some of it.
 bool takes_all_light(uint bounce) { return bounce >= frame.max_bounces && !light_met_alone(); }
 
-/// Towards one of the lights, splats that send out light, or the environment. `all`: nothing else finds their light.
-EmissionSample sample_emitter(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside, bool all) {
-  LightSample chosen = light_sample(receiver_at(hit.position, hit.plane, hit.object), random);
+/// Towards a light that was chosen, whose light the surface sends on to the eye by `value`, a direction that the path would take with
+/// probability `pdf`. `inside`: the dielectrics there. `all`: nothing else finds the light.
+EmissionSample towards_light(Hit hit, LightSample chosen, vec3 value, float pdf, uint inside, bool all) {
   EmissionSample probe;
-  vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
-  vec3 value = bsdf_value(bsdf, to_eye, to_light, probe.pdf);
   probe.splat = chosen.splat;
   bool emitter = EMISSION && probe.splat != NO_SPLAT;
-  probe.pdf = all ? 0.0f : probe.pdf;
+  probe.pdf = all ? 0.0f : pdf;
   probe.share = LOOK == LOOK_SCAN || emitter || all ? 1.0f : mis_weight(chosen.pdf, probe.pdf);
   probe.light = value * chosen.radiance;
-  if (through_plane(hit, chosen.dir, to_light.z)) probe.light = vec3(0.0f);
-  uint object_bit = 0u;
-  if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
-  probe.ray = ray_from_hit(hit, chosen.dir, inside ^ object_bit);
+  probe.ray = ray_from_hit(hit, chosen.dir, inside);
   probe.ray.t_max = LOOK == LOOK_SCAN ? min(chosen.distance, frame.reach) : chosen.distance;
   if (SIZES && SHADOWS && LOOK != LOOK_SCAN && !emitter && light_hides(probe.ray, chosen.light)) probe.light = vec3(0.0f);
   if (max(probe.light.x, max(probe.light.y, probe.light.z)) <= 0.0f) probe.ray.t_max = -1.0f;
   return probe;
+}
+
+/// Towards one of the lights, splats that send out light, or the environment. `all` as above.
+EmissionSample sample_emitter(Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec3 random, uint inside, bool all) {
+  LightSample chosen = light_sample(receiver_at(hit.position, hit.plane, hit.object), random);
+  vec3 to_light = vec3(dot(chosen.dir, basis.u), dot(chosen.dir, basis.v), dot(chosen.dir, hit.normal));
+  float pdf = 0.0f;
+  vec3 value = bsdf_value(bsdf, to_eye, to_light, pdf);
+  if (through_plane(hit, chosen.dir, to_light.z)) value = vec3(0.0f);
+  uint object_bit = 0u;
+  if (GLASS && to_light.z < 0.0f) object_bit = 1u << material_at(hit.object).mask_bit;
+  return towards_light(hit, chosen, value, pdf, inside ^ object_bit, all);
 }
 
 /// What a path's ray sees first, and whether the splat with these words is a member of it. A sheet that is see-through is there
@@ -170,6 +177,17 @@ EmissionSample sample_sky_light(Hit hit, Bsdf bsdf, Basis basis, vec2 random, ui
   return probe;
 }
 
+/// Adds the light that a ray brings where nothing is in its way, which is looked at where `hides`.
+void take_light(INOUT(Path) path, EmissionSample probe, bool hides, INOUT(Tally) tally) {
+  if (hides) {
+    Passing passing = trace_shadow(probe.ray, tally);
+    if ((TINTED || PANES) && passing.glass != 0u) probe.share = 1.0f;
+    probe.light *= passing.light;
+    path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
+  }
+  path.radiance += clamped(path.throughput * (probe.light * probe.share), path.bounce);
+}
+
 /// The light found from a hit by LOOK's rays: to a light, to the sky or both, one after the other, so that programs hold one walk
 /// for them. For the light of a splat, which a ray must hit as paths do, `emitter` is left.
 void sample_lights(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random, uint pixel, uint sample_index,
@@ -192,13 +210,7 @@ void sample_lights(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_ey
       probe.ray.t_max = -1.0f;
       probe.light = vec3(0.0f);
     }
-    if (SHADOWS || sky) {
-      Passing passing = trace_shadow(probe.ray, tally);
-      if ((TINTED || PANES) && passing.glass != 0u) probe.share = 1.0f;
-      probe.light *= passing.light;
-      path.shadow += probe.ray.t_max >= 0.0f ? 1u : 0u;
-    }
-    path.radiance += clamped(path.throughput * (probe.light * probe.share), path.bounce);
+    take_light(path, probe, SHADOWS || sky, tally);
     sky = false;
   } while (to_lights);
 }
@@ -210,17 +222,13 @@ void cut_path(INOUT(Path) path, vec3 throughput, bool cut) {
   path.alive = path.alive && !cut;
 }
 
-/// Has the path go on from a hit.
-void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
-  BsdfSample chosen = bsdf_direction(bsdf, to_eye, vec3(random));
-  bsdf_weigh(bsdf, to_eye, chosen);
-  vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
+/// Has the path go on from a hit in a direction of the world that was chosen; `random`: whether it does. `matte`: the surface sends
+/// light back that no mirror does.
+void go_on(INOUT(Path) path, Hit hit, BsdfSample chosen, vec3 dir, float random, bool matte) {
   vec3 throughput = path.throughput * chosen.weight;
-  if (through_plane(hit, dir, chosen.dir.z)) throughput = vec3(0.0f);
   float most = max(throughput.x, max(throughput.y, throughput.z));
   path.alive = most > 0.0f;
-  if (COUNTERS && !path.alive && (chosen.event & BSDF_REFLECTED) != 0u &&
-      max(bsdf.base.x, max(bsdf.base.y, bsdf.base.z)) > 0.0f) {
+  if (COUNTERS && !path.alive && (chosen.event & BSDF_REFLECTED) != 0u && matte) {
     path.below = 1u;
     path.energy_below = (path.throughput.x + path.throughput.y + path.throughput.z) / 3.0f;
   }
@@ -229,7 +237,7 @@ void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec
   cut_path(path, throughput, cut);
   if (path.bounce >= ((chosen.event & BSDF_DELTA) != 0u ? ROULETTE_BOUNCE_DELTA : ROULETTE_BOUNCE)) {
     float survival = min(most / ROULETTE_LEFT, 1.0f);
-    path.alive = path.alive && random.w < survival;
+    path.alive = path.alive && random < survival;
     throughput /= max(survival, 1e-20f);
   }
   bool transmitted = (chosen.event & BSDF_TRANSMITTED) != 0u;
@@ -246,18 +254,39 @@ void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec
   path.bounce += 1u;
 }
 
-/// What a path finds where it meets nothing.
-void meet_environment(INOUT(Path) path) {
+/// Has the path go on from a hit, or end there.
+void scatter(INOUT(Path) path, Hit hit, Bsdf bsdf, Basis basis, vec3 to_eye, vec4 random) {
+  BsdfSample chosen = bsdf_direction(bsdf, to_eye, vec3(random));
+  bsdf_weigh(bsdf, to_eye, chosen);
+  vec3 dir = basis.u * chosen.dir.x + basis.v * chosen.dir.y + hit.normal * chosen.dir.z;
+  if (through_plane(hit, dir, chosen.dir.z)) chosen.weight = vec3(0.0f);
+  go_on(path, hit, chosen, dir, random.w, max(bsdf.base.x, max(bsdf.base.y, bsdf.base.z)) > 0.0f);
+}
+
+/// Ends a path in light from all around; `light_pdf`: how often that was looked for there.
+void end_in_light(INOUT(Path) path, vec3 radiance, float light_pdf) {
   float share = 1.0f;
-  if (SKY) share = mis_weight(path.pdf, path.pdf > 0.0f ? sky_pdf(path.ray.dir) * frame.sky_share : 0.0f);
-  if (path.bounce == 0u) {
-    path.radiance += path.throughput * background_radiance(path.ray.dir);
-    if (OUTPUT == OUTPUT_BASE) path.base = min(path.radiance, vec3(1.0f));
-  } else {
-    path.radiance += clamped(path.throughput * environment_radiance(path.ray.dir) * share, path.bounce - 1u);
-  }
+  if (SKY) share = mis_weight(path.pdf, light_pdf);
+  path.radiance += clamped(path.throughput * radiance * share, max(path.bounce, 1u) - 1u);
+  if (OUTPUT == OUTPUT_BASE && path.bounce == 0u) path.base = min(path.radiance, vec3(1.0f));
   path.leaked = path.ray.inside != 0u ? 1u : 0u;
   path.alive = false;
+}
+
+/// Whether a ray that meets nothing shows a background that lights nothing.
+bool sees_background(Path path) { return path.bounce == 0u && frame.background.x >= 0.0f; }
+
+/// What a path finds where it meets nothing.
+void meet_environment(INOUT(Path) path) {
+  vec3 radiance = sees_background(path) ? frame.background : frame.environment;
+  float light_pdf = 0.0f;
+  if (ENVIRONMENT && !sees_background(path)) {
+    vec3 own = to_environment(path.ray.dir);
+    vec2 at = environment_position(own);
+    radiance = environment_at(at);
+    if (SKY && path.pdf > 0.0f) light_pdf = sky_pdf(own, at) * frame.sky_share;
+  }
+  end_in_light(path, radiance, light_pdf);
 }
 
 /// LOOK_SEEN: half of the colour is as bright wherever it faces.
@@ -303,21 +332,26 @@ void shade_hit(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(E
   }
 }
 
+/// Adds the light of lights with a size that a path's ray meets before the hit. Returns whether one hides that, and ends the path.
+bool meet_lights(INOUT(Path) path, Hit hit) {
+  float t = hit.t;
+  path.radiance += clamped(path.throughput * met_light(path.ray, path.pdf, t), max(path.bounce, 1u) - 1u);
+  bool hidden = t < hit.t;
+  path.coverage = hidden && path.bounce == 0u ? 1.0f : path.coverage;
+  path.alive = !hidden;
+  return hidden;
+}
+
 /// What a path's ray finds.
 void meet(INOUT(Path) path, Hit hit, uint pixel, uint sample_index, INOUT(EmissionSample) emitter, INOUT(Tally) tally) {
   bool light_first = false;
-  if (SIZES && LOOK != LOOK_SCAN) {
-    float t = hit.t;
-    path.radiance += clamped(path.throughput * met_light(path.ray, path.pdf, t), max(path.bounce, 1u) - 1u);
-    light_first = t < hit.t;
-  }
-  if (light_first) {
-    path.coverage = path.bounce == 0u ? 1.0f : path.coverage;
-    path.alive = false;
-  } else if (hit.found) {
-    shade_hit(path, hit, pixel, sample_index, emitter, tally);
-  } else {
-    meet_environment(path);
+  if (SIZES && LOOK != LOOK_SCAN) light_first = meet_lights(path, hit);
+  if (!light_first) {
+    if (hit.found) {
+      shade_hit(path, hit, pixel, sample_index, emitter, tally);
+    } else {
+      meet_environment(path);
+    }
   }
 }
 
