@@ -24,6 +24,9 @@ struct KernelWork {
   std::uint32_t environment_height = 1;
 };
 
+/// What the wide functions read of a dispatch of light.
+[[nodiscard]] WideLight wide_light_of(const KernelWork& work);
+
 /// Runs the threads of the group of this number, one after the other; adds what they count to `counts`.
 using Kernel = void (*)(const KernelWork& work, std::uint32_t group, Counts& counts);
 

@@ -29,15 +29,22 @@ namespace {
 #include "engine/cpu/wide_shadow.h"
 //
 #include "engine/cpu/picture_tile.h"
+#ifdef LIT
+//
+#include "engine/cpu/wave.h"
+#endif
 
 void run_pictures(const KernelWork& work, std::uint32_t group, Counts& counts) {
+#ifdef LIT
+  bound = &work;
+  if (runs_in_waves()) return run_wave(work, group, counts);
+#endif
   bool opened = false;
   run_group(work, group, counts, [&] {
     uvec2 in_tile(0);
     if (!find_pixel(in_tile)) return;
     if (!std::exchange(opened, true)) tile_now = open_group_tile();
-    const uvec2 in_group = tile_pixel(0u);
-    slot_now = ORDER == ORDER_LINEAR ? in_group.x : in_group.y * 8u + in_group.x;
+    slot_now = tile_slot();
     trace_pixel(in_tile);
   });
   tile_now = nullptr;

@@ -95,3 +95,9 @@ WideTile* open_group_tile() {
   bound->functions.open_tile(bound->tree, *kept);
   return kept.get();
 }
+
+/// The place of this thread's pixel in the tile.
+uint tile_slot() {
+  const uvec2 in_group = tile_pixel(0u);
+  return ORDER == ORDER_LINEAR ? in_group.x : in_group.y * 8u + in_group.x;
+}

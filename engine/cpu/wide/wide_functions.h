@@ -1,5 +1,6 @@
 /// What is compiled for several kinds of CPUs.
 #pragma once
+#include "engine/cpu/wide/wide_light.h"
 #include "engine/cpu/wide/wide_tile.h"
 #include "engine/cpu/wide/wide_walk.h"
 
@@ -11,6 +12,9 @@ struct WideFunctions {
   WideBlender blend;
   WideOpener open_tile;
   WideTileStepper step_tile;
+  WideSampler sample;
+  WideScatterer scatter;
+  WideEscaper escape;
 };
 
 /// The fastest that this CPU runs, of vectors of at most `vector_bits`: 512, 256 and 128 on x86-64, else those of any CPU that
