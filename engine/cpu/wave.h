@@ -33,10 +33,12 @@ struct Wave {
   WideEscapes escapes;
 };
 
-/// Whether the dispatch's paths are followed in waves: sheets that are see-through and splats that send out light want rays in between.
+/// Whether the dispatch's paths are followed in waves: sheets that are see-through and splats that send out light want rays in between. The
+/// vectors count an environment's numbers, four a texel, in 31 bits.
 bool runs_in_waves() {
   const bool paths = LOOK == LOOK_LIT || LOOK == LOOK_CLAY;
-  return paths && !OPACITY && !EMISSION && (LIGHTS || SKY || ENVIRONMENT);
+  const bool counted = std::uint64_t{bound->environment_width} * bound->environment_height < 1U << 29U;
+  return paths && counted && !OPACITY && !EMISSION && (LIGHTS || SKY || ENVIRONMENT);
 }
 
 /// Whether a surface is what WideVertices are on.
