@@ -5,6 +5,7 @@
 
 namespace splatray {
 
-extern const std::span<const std::uint32_t> TRACE, TRACE_PAGED, LIGHT, LIGHT_PAGED, RAYS, RAYS_PAGED, FUSED;
+extern const std::span<const std::uint32_t> TRACE, TRACE_PAGED, LIGHT, LIGHT_PAGED, RAYS, RAYS_PAGED, FUSED,
+    DISPLAY;
 
 }  // namespace splatray

@@ -1,7 +1,10 @@
 #include "app/library/display_image.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include "engine/base/all_cores.h"
@@ -10,54 +13,29 @@
 namespace splatray {
 namespace {
 
+namespace glsl {
+#include "shaders/lang/glsl_as_cpp.h"
+using glm::log2;
+using glm::mat3;
+using glm::pow;
+#include "shaders/display/tone.glsl"
+}  // namespace glsl
+
 float shoulder(float x) {
   constexpr float KNEE = 0.8F, ROOM = 1.0F - KNEE;
   return x <= KNEE ? x : 1.0F - ROOM * std::exp((KNEE - x) / ROOM);
 }
 
-/// Khronos PBR Neutral's published formula and constants.
-vec3 neutral(vec3 color) {
-  constexpr float START = 0.8F - 0.04F, DESATURATION = 0.15F;
-  const float least = std::min({color.x, color.y, color.z});
-  color -= least < 0.08F ? least - 6.25F * least * least : 0.04F;
-  const float peak = std::max({color.x, color.y, color.z});
-  if (peak < START) return color;
-  constexpr float ROOM = 1.0F - START;
-  const float lowered = 1.0F - ROOM * ROOM / (peak + ROOM - START);
-  const float faded = 1.0F - 1.0F / (DESATURATION * (peak - lowered) + 1.0F);
-  return glm::mix(color * (lowered / peak), vec3(lowered), faded);
-}
-
-/// AgX's matrices and range of stops, its curve as a polynomial.
-vec3 agx(const vec3& color) {
-  const glm::mat3 inset(0.842479062253094F, 0.0423282422610123F, 0.0423756549057051F, 0.0784335999999992F,
-                        0.878468636469772F, 0.0784336F, 0.0792237451477643F, 0.0791661274605434F,
-                        0.879142973793104F);
-  const glm::mat3 outset(1.19687900512017F, -0.0528968517574562F, -0.0529716355144438F, -0.0980208811401368F,
-                         1.15190312990417F, -0.0980434501171241F, -0.0990297440797205F, -0.0989611768448433F,
-                         1.15107367264116F);
-  constexpr float LEAST_EV = -12.47393F, MOST_EV = 4.026069F;
-  const vec3 inside = glm::max(inset * color, vec3(1e-10F));
-  const vec3 x = (glm::clamp(glm::log2(inside), LEAST_EV, MOST_EV) - LEAST_EV) / (MOST_EV - LEAST_EV);
-  const vec3 x2 = x * x, x4 = x2 * x2;
-  const vec3 curve = 15.5F * x4 * x2 - 40.14F * x4 * x + 31.96F * x4 - 6.868F * x2 * x + 0.4298F * x2 +
-                     0.1191F * x - 0.00232F;
-  return glm::pow(glm::max(outset * curve, vec3(0.0F)), vec3(2.2F));
-}
-
-/// What is not a number, and what is negative, is black; infinity the largest number whose square is one.
-float usable(float x) { return x > 0.0F ? std::min(x, 1e18F) : 0.0F; }
-
 }  // namespace
 
 vec3 toned(vec3 radiance, const Display& display) {
   const auto factor = static_cast<float>(std::exp2(display.exposure_ev));
-  const vec3 color(usable(factor * radiance.x), usable(factor * radiance.y), usable(factor * radiance.z));
+  const vec3 color = glsl::tone_usable(factor * radiance);
   switch (display.tone) {
     case Tone::neutral:
-      return glm::clamp(neutral(color), vec3(0.0F), vec3(1.0F));
+      return glsl::tone_neutral(color);
     case Tone::agx:
-      return glm::clamp(agx(color), vec3(0.0F), vec3(1.0F));
+      return glsl::tone_agx(color);
     case Tone::none:
       return glm::min(color, vec3(1.0F));
     default:

@@ -47,13 +47,14 @@ constexpr double WALK_NOTCH = 1.25, FAST_WALK = 5.0;
 
 Viewer::Viewer(const Request& request, Clock::time_point start)
     : request_(request),
-      stats_(start),
       // What was remembered is what the window had.
       window_("splatray", window_size(request, user_.state()),
               /*scaled=*/request.view.width > 0 || !user_.state().window_size),
-      presenter_(window_),
+      devices_(request_.settings.device, window_),
+      stats_(start),
+      presenter_(window_, devices_.showing()),
       loader_([this] { window_.wake(); }, user_scene_cache()),
-      renderer_(request_.settings.device, [this] { window_.wake(); }) {
+      renderer_(devices_.tracing(), devices_.shared(), [this] { window_.wake(); }) {
   panels_.recent_files = user_.state().recent_files;
   const Choices& choices = choices_kept_ = user_.state().choices;
   document_.eye_dome = choices.eye_dome;
@@ -94,8 +95,7 @@ void Viewer::run() {
 
 void Viewer::write_stats() {
   if (!request_.output.stats_json.empty())
-    stats_.write(request_.output.stats_json,
-                 presenter_.validation_messages() + renderer_.validation_messages());
+    stats_.write(request_.output.stats_json, devices_.validation_messages());
 }
 
 /// While a drag changes the picture, the window waits for that picture: on the CPU, drawing costs the tracer's time.
@@ -156,7 +156,10 @@ void Viewer::take_render_news() {
   if (news.frame) {
     frame_ = news.frame;
     has_new_frame_ = true;
-    presenter_.set_picture(frame_->display, frame_->view.width, frame_->view.height);
+    if (frame_->shown)
+      presenter_.set_picture(frame_->shown, frame_->view.width, frame_->view.height);
+    else
+      presenter_.set_picture(frame_->display, frame_->view.width, frame_->view.height);
     stats_.shown(frame_, Clock::now());
   }
   if (news.saving) work_ = news.saving;

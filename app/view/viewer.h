@@ -14,6 +14,7 @@
 #include "app/view/view_stats.h"
 #include "app/view/window/mouse.h"
 #include "app/view/window/presenter.h"
+#include "app/view/window/view_devices.h"
 #include "app/view/window/window.h"
 
 namespace splatray {
@@ -81,8 +82,9 @@ class Viewer {
   glm::uvec2 window_kept_{0};  ///< size of the window as user_ has it
   Choices choices_kept_;       ///< those of this window
   Request request_;            ///< of the command line
-  ViewStats stats_;
   Window window_;
+  ViewDevices devices_;  ///< before all that has pictures of theirs
+  ViewStats stats_;
   Presenter presenter_;
   LoadThread loader_;
   RenderThread renderer_;

@@ -37,6 +37,9 @@ struct QueueOptions {
   std::uint32_t vector_bits = UINT32_MAX;
 };
 
+/// What a program needs of Vulkan's devices beside what the engine does (vulkan/vulkan_device.h).
+struct DeviceNeeds;
+
 class Device {
  public:
   Device() = default;
@@ -59,8 +62,10 @@ inline constexpr const char* HOST_DEVICE = "cpu";
 
 /// The device that a user asks for: "" = Vulkan's best GPU (discrete > integrated > virtual > other), or the host where
 /// Vulkan has none, a number of list_devices, or part of a name (case-insensitive); HOST_DEVICE = no Vulkan, which is then not
-/// even loaded. Throws Error (no_device) with every device's reason when none fits.
+/// even loaded. One of Vulkan's is given what `wishes` asks for where it has it. Throws Error (no_device) with every device's
+/// reason when none fits.
 [[nodiscard]] std::unique_ptr<Device> open_device(const std::string& wanted);
+[[nodiscard]] std::unique_ptr<Device> open_device(const std::string& wanted, const DeviceNeeds& wishes);
 
 /// All Vulkan devices, usable or not, in the order of their numbers. Empty when there is no Vulkan loader's driver
 /// at all.

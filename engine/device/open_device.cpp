@@ -7,10 +7,12 @@
 
 namespace splatray {
 
-std::unique_ptr<Device> open_device(const std::string& wanted) {
+std::unique_ptr<Device> open_device(const std::string& wanted) { return open_device(wanted, {}); }
+
+std::unique_ptr<Device> open_device(const std::string& wanted, const DeviceNeeds& wishes) {
   if (wanted == HOST_DEVICE) return std::make_unique<HostDevice>();
   try {
-    auto vulkan = std::make_unique<VulkanDevice>(wanted);
+    auto vulkan = std::make_unique<VulkanDevice>(wanted, false, wishes);
     if (!wanted.empty() || !vulkan->is_cpu()) return vulkan;
   } catch (const Error& error) {
     if (!wanted.empty() || error.code() != ExitCode::no_device) throw;

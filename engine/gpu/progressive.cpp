@@ -1,5 +1,6 @@
 // Tracer's images that grow sample by sample.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "engine/base/error.h"
@@ -22,11 +23,13 @@ void Tracer::begin(const Look& look, const View& wanted, const Settings& setting
   runner.scene.show(look);
   GrowingPicture& progressive = impl.progressive;
   std::unique_ptr<Buffer> accumulation = std::move(progressive.accumulation);
+  std::unique_ptr<Buffer> before_means = std::move(progressive.before_means);
   runner.queue->reserve(accumulation, bytes);
   progressive = {.look = look,
                  .dispatch = runner.picture_dispatch(view, settings),
                  .accumulation = std::move(accumulation),
                  .before = {},
+                 .before_means = std::move(before_means),
                  .upload = impl.uploads};
 }
 
@@ -39,7 +42,8 @@ bool Tracer::advance(double wanted_ms) {
   FrameParams& frame = progressive.dispatch.frame;
   const std::uint32_t all = frame.sample_end - frame.sample_begin;
   if (progressive.samples == all) return true;
-  const std::uint32_t rows = std::min(progressive.rows, frame.height - progressive.next_row);
+  const std::uint32_t left = frame.height - progressive.next_row;
+  const std::uint32_t rows = std::isinf(wanted_ms) ? left : std::min(progressive.rows, left);
   frame.tile_first = progressive.next_row * frame.width;
   const auto start = std::chrono::steady_clock::now();
   impl.runner.scene.show(progressive.look);
@@ -53,7 +57,7 @@ bool Tracer::advance(double wanted_ms) {
   impl.stats.counters = impl.runner.counts;
   impl.stats.trace_ms += trace_ms;
   impl.stats.wall_ms += ms;
-  progressive.rows = next_rows(rows, ms, wanted_ms, frame.height);
+  if (std::isfinite(wanted_ms)) progressive.rows = next_rows(rows, ms, wanted_ms, frame.height);
   progressive.next_row += rows;
   if (progressive.next_row == frame.height) {
     progressive.next_row = 0;
@@ -90,6 +94,28 @@ Image Tracer::picture() {
   progressive.before.join(means.first(more), 0, samples + 1);
   progressive.before.join(means.subspan(more), more, samples);
   return image;
+}
+
+GrownPicture Tracer::grown() {
+  GrowingPicture& progressive = impl_->progressive;
+  if (progressive.upload == 0)
+    throw Error(ExitCode::failed, "grown() was called without begin(), expected an image begun");
+  const FrameParams& frame = progressive.dispatch.frame;
+  const std::uint32_t before = progressive.before.samples();
+  if (progressive.uploaded_before != before) {
+    std::vector<vec4> means(std::size_t{frame.width} * frame.height);
+    progressive.before.join(means, 0, 0);
+    impl_->runner.queue->reserve(progressive.before_means, std::span(means).size_bytes());
+    impl_->runner.queue->upload(*progressive.before_means, std::as_bytes(std::span(means)));
+    progressive.uploaded_before = before;
+  }
+  return {.width = frame.width,
+          .height = frame.height,
+          .means = progressive.accumulation.get(),
+          .before = before > 0 ? progressive.before_means.get() : progressive.accumulation.get(),
+          .samples_before = before,
+          .samples = progressive.samples - before,
+          .next_row = progressive.next_row};
 }
 
 }  // namespace splatray

@@ -48,6 +48,17 @@ enum class Stopped {
   kept,     ///< it has the samples that all its pixels have; their first one is made to its end
 };
 
+/// A picture begun, where it grows: on the device.
+struct GrownPicture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  const Buffer* means = nullptr;     ///< vec4 of each pixel: the mean of the samples that are not in `before`
+  const Buffer* before = nullptr;    ///< vec4 of each pixel: the mean of the first samples; not null
+  std::uint32_t samples_before = 0;  ///< in each pixel of `before`
+  std::uint32_t samples = 0;         ///< in each pixel of `means`
+  std::uint32_t next_row = 0;        ///< rows above it have one more
+};
+
 /// What it shows is given with each call; of a look, what equals that of the call before is not uploaded again. Calls that make
 /// no sense, such as images of no scene or a look of other objects, throw Error (failed) with a sentence that says so.
 class Tracer {
@@ -81,12 +92,14 @@ class Tracer {
   /// gives, whatever other calls than upload() happened between. Settings::aov and View::window are not looked at.
   /// Throws Error (out_of_memory) for more pixels than the device lets a buffer hold.
   void begin(const Look& look, const View& view, const Settings& settings);
-  /// Adds one sample to some rows of the picture begun, aiming at `wanted_ms` of work; returns whether all of
-  /// Settings::samples are in every pixel. After upload() begin() must come first.
+  /// Adds one sample to some rows of the picture begun, aiming at `wanted_ms` of work, infinity: to all that lack it; returns whether
+  /// all of Settings::samples are in every pixel. After upload() begin() must come first.
   bool advance(double wanted_ms);
   [[nodiscard]] std::uint32_t samples() const;  ///< in every pixel of the picture begun
   /// The picture begun: each pixel the mean of its samples so far, black without one.
   [[nodiscard]] Image picture();
+  /// The same where it is, until the next call of begin, advance or upload.
+  [[nodiscard]] GrownPicture grown();
   /// What the ray through each pixel's centre hits, top row first. With `progress` in dispatches small enough for an
   /// answer within some tens of ms.
   [[nodiscard]] std::vector<AovPixel> trace_aov(const Look& look, const View& view, const Settings& settings,

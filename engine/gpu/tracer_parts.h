@@ -16,11 +16,13 @@ struct GrowingPicture {
   Dispatch dispatch;
   /// Means of all pixels over the samples behind those of `before`, vec4; none before the first begin().
   std::unique_ptr<Buffer> accumulation;
-  SampleMean before;           ///< of whole blocks
-  std::uint32_t upload = 0;    ///< the upload() whose scene it shows; 0 = none was begun
-  std::uint32_t samples = 0;   ///< in every pixel
-  std::uint32_t next_row = 0;  ///< rows above it have one more
-  std::uint32_t rows = 8;      ///< of the next dispatch
+  SampleMean before;                     ///< of whole blocks
+  std::unique_ptr<Buffer> before_means;  ///< its means, as grown() last had them
+  std::uint32_t uploaded_before = 0;     ///< samples of those
+  std::uint32_t upload = 0;              ///< the upload() whose scene it shows; 0 = none was begun
+  std::uint32_t samples = 0;             ///< in every pixel
+  std::uint32_t next_row = 0;            ///< rows above it have one more
+  std::uint32_t rows = 8;                ///< of the next dispatch
 };
 
 /// An image that is traced tile by tile.

@@ -9,9 +9,9 @@
 
 #include "app/library/image_file.h"
 #include "app/library/request/command_line.h"
+#include "app/view/display/display_table.h"
 #include "app/view/model/document_request.h"
 #include "app/view/thread/resolution.h"
-#include "app/view/window/display_table.h"
 #include "app/view/window/drop.h"
 #include "app/view/window/mouse.h"
 #include "engine/scene/phong.h"

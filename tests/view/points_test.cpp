@@ -7,8 +7,8 @@
 #include <random>
 
 #include "app/library/shot/scene_source.h"
+#include "app/view/display/eye_dome.h"
 #include "app/view/model/document_request.h"
-#include "app/view/thread/eye_dome.h"
 #include "app/view/thread/point_picture.h"
 #include "app/view/thread/point_sampler.h"
 #include "tests/view/documents.h"

@@ -7,7 +7,9 @@
 #include "app/library/shot/environment.h"
 #include "app/library/shot/lights.h"
 #include "app/library/shot/resolve.h"
+#include "app/view/display/device_picture.h"
 #include "engine/base/error.h"
+#include "engine/device/vulkan/command_queue.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/view/live_documents.h"
 
@@ -231,6 +233,85 @@ TEST_F(ProgressiveTest, StoppedWorkGoesOn) {
   ASSERT_TRUE(progressive.next_work());
   EXPECT_TRUE(progressive.work([] { return false; }));
   EXPECT_FALSE(progressive.next_work());
+}
+
+/// Pictures that are shown from the device that traces them.
+class SharedProgressiveTest : public ProgressiveTest {
+ protected:
+  void SetUp() override { live.open(scene); }
+
+  std::vector<SharedFrame> show() {
+    std::vector<SharedFrame> frames;
+    on_device.show(document, SIZE);
+    while (const auto when = on_device.next_work()) {
+      std::this_thread::sleep_until(*when);
+      if (SharedFrame frame = on_device.work([] { return false; })) frames.push_back(frame);
+    }
+    return frames;
+  }
+
+  /// How far what is shown is from what the host would show of this image, of 255.
+  int most_apart(const Frame& frame, const std::vector<vec4>& rgba) {
+    const Display display(exposure_of(document), resolve_tone(document.request));
+    const std::vector<std::uint8_t> expected = std::make_unique<DisplayTable>(display)->rgba(rgba);
+    std::vector<std::uint8_t> shown(expected.size());
+    EXPECT_EQ(device.queue->wait(), VK_SUCCESS);
+    CommandQueue(device).download(frame.shown->pixels, std::as_writable_bytes(std::span(shown)));
+    int most = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      most = std::max(most, std::abs(int{shown[i]} - int{expected[i]}));
+    return most;
+  }
+
+  Progressive on_device{live, "device", &device};
+};
+
+TEST_F(SharedProgressiveTest, EndsInTheHeadlessPictureAndBringsNoneToTheHost) {
+  for (const double x : {0.1, 0.2}) {
+    document.camera.eye.x = document.camera.target.x = x;
+    const std::vector<SharedFrame> frames = show();
+    ASSERT_GE(frames.size(), 2U);
+    EXPECT_TRUE(frames.front()->moving);
+    for (const SharedFrame& frame : frames) {
+      ASSERT_TRUE(frame->shown);
+      EXPECT_TRUE(frame->display.empty() && frame->image.rgba.empty());
+      EXPECT_EQ(frame->image.width, frame->view.width);
+    }
+    EXPECT_EQ(frames.back()->samples, document.request.settings.samples);
+    EXPECT_LE(most_apart(*frames.back(), headless().rgba), 1);
+  }
+}
+
+TEST_F(SharedProgressiveTest, EndsWithoutNoiseAndAnExposureOnlyColours) {
+  document.request.look.style = LOOK_LIT;
+  document.request.settings.samples = 4;
+  const std::vector<SharedFrame> frames = show();
+  EXPECT_TRUE(frames.front()->is_seen);
+  const std::vector<vec4> expected = headless(true).rgba;
+  EXPECT_TRUE(frames.back()->denoised && frames.back()->image.rgba == expected);
+  EXPECT_LE(most_apart(*frames.back(), expected), 1);
+  document.request.look.exposure_ev = -2.0;
+  const std::vector<SharedFrame> again = show();
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_LE(most_apart(*again.back(), expected), 1);
+}
+
+TEST_F(SharedProgressiveTest, AnExposureColoursWhatTheDeviceStillHas) {
+  (void)show();
+  document.request.look.exposure_ev = -2.0;
+  const std::vector<SharedFrame> frames = show();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_LE(most_apart(*frames.back(), headless().rgba), 1);
+  // While another picture is begun the last one is not there any more.
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  on_device.show(document, {640, 480});
+  while (!on_device.work([] { return false; })) std::this_thread::sleep_until(on_device.next_work().value());
+  std::this_thread::sleep_until(on_device.next_work().value());
+  EXPECT_FALSE(on_device.work([] { return true; })) << "some rows of the picture at rest";
+  document.request.look.exposure_ev = 1.0;
+  on_device.show(document, {640, 480});
+  EXPECT_FALSE(on_device.work([] { return true; }));
+  EXPECT_LE(most_apart(*show().back(), headless().rgba), 1);
 }
 
 TEST_F(ProgressiveTest, EnvironmentThatCannotBeReadIsReportedOnce) {

@@ -53,7 +53,7 @@ class Alarm {
 class RenderThreadTest : public CliTest {
  protected:
   void TearDown() override {
-    EXPECT_EQ(thread.validation_messages(), 0U);
+    EXPECT_EQ(opened->validation_messages(), 0U);
     CliTest::TearDown();
   }
 
@@ -65,7 +65,8 @@ class RenderThreadTest : public CliTest {
   SharedScene scene = shared_discs();
   Document document = disc_document(*scene);
   Alarm alarm;
-  RenderThread thread{"", alarm.bell()};
+  std::unique_ptr<Device> opened = open_device("");
+  RenderThread thread{*opened, nullptr, alarm.bell()};
 };
 
 TEST_F(RenderThreadTest, FinishesThePicture) {

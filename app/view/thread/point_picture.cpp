@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/view/thread/eye_dome.h"
+#include "app/view/display/eye_dome.h"
 
 namespace splatray {
 namespace {

@@ -1,5 +1,7 @@
 #include "app/view/thread/progressive.h"
 
+#include <limits>
+
 #include "app/library/picture/denoise.h"
 #include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
@@ -45,6 +47,8 @@ void Progressive::restart() { stage_ = Stage::coarse; }
 
 void Progressive::restart_with_scene() {
   moving_.forget();
+  if (screen_) screen_->forget();
+  grows_last_ = false;
   restart();
 }
 
@@ -55,7 +59,7 @@ std::optional<Progressive::Clock::time_point> Progressive::next_work() const {
 }
 
 SharedFrame Progressive::work(const std::function<bool()>& stop) {
-  if (recolour_) return coloured(*last_);
+  if (recolour_) return recoloured();
   const Stage stage = stage_;
   stage_ = Stage::finished;  // should an Error fly
   live_.match(document_, document_.mode);
@@ -68,7 +72,7 @@ SharedFrame Progressive::work(const std::function<bool()>& stop) {
   if (stage == Stage::guided) return begin_filter(stop);
   if (stage == Stage::filtered) return filtered();
   if (stage == Stage::settling && document_.mode == ViewMode::shaded) {
-    live_.tracer().begin(live_.look(), {document_.camera, window_px_.x, window_px_.y}, settings());
+    begin({document_.camera, window_px_.x, window_px_.y}, settings());
     pass_start_ = Clock::now();
     half_.clear();
   }
@@ -88,10 +92,14 @@ SharedFrame Progressive::trace_coarse() {
     frame.is_seen = true;
   }
   const Clock::time_point start = Clock::now();
-  if (document_.mode == ViewMode::shaded)
-    frame.image = live_.tracer().render(live_.look(), frame.view, coarse);
-  else
+  if (document_.mode == ViewMode::shaded) {
+    begin(frame.view, coarse);
+    while (!live_.tracer().advance(std::numeric_limits<double>::infinity())) {
+    }
+    take_grown(frame);
+  } else {
     trace_aovs(frame, coarse, {});
+  }
   frame.ms = milliseconds_since(start);
   frame.stats = live_.tracer().stats();
   const double pixels = double(frame.view.width) * frame.view.height;
@@ -99,6 +107,22 @@ SharedFrame Progressive::trace_coarse() {
   resolution_.learn(pixels,
                     milliseconds_since(start));  // with its colouring, which the display waits for too
   return shown;
+}
+
+/// Begins another picture.
+void Progressive::begin(const View& view, const Settings& settings) {
+  if (screen_) screen_->wait();  // which may read the one before
+  grows_last_ = false;
+  live_.tracer().begin(live_.look(), view, settings);
+}
+
+/// Gives a frame the picture begun as it is: where pictures are shown from the device only its size.
+void Progressive::take_grown(Frame& frame) {
+  if (shared_ == nullptr)
+    frame.image = live_.tracer().picture();
+  else
+    frame.image = {frame.view.width, frame.view.height, {}, {}};
+  grows_last_ = true;
 }
 
 SharedFrame Progressive::trace_fine(const std::function<bool()>& stop) {
@@ -130,7 +154,7 @@ SharedFrame Progressive::trace_samples() {
   if (!finished && pass_start_ - published_ < BETWEEN_PICTURES) return {};
   published_ = pass_start_;
   Frame frame = new_frame(window_px_, 1.0);
-  frame.image = tracer.picture();
+  take_grown(frame);
   frame.samples = tracer.samples();
   frame.ms = ms;
   frame.stats = tracer.stats();
@@ -153,7 +177,7 @@ SharedFrame Progressive::begin_filter(const std::function<bool()>& stop) {
   if (filter_.valid() && filter_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return {};  // that of a picture that is no longer shown
   const Settings settings = this->settings();
-  Image image = last_->image;
+  Image image = live_.tracer().picture();
   const Tracer::Progress progress = [&stop](double) { return !stop(); };
   std::vector<vec4> base;
   try {
@@ -209,6 +233,13 @@ Frame Progressive::new_frame(glm::uvec2 size_px, double scale) const {
   return frame;
 }
 
+/// The last picture in another exposure, or nothing where another has been begun, which will have it.
+SharedFrame Progressive::recoloured() {
+  recolour_ = false;
+  const bool there = last_->mode != ViewMode::shaded || !last_->image.rgba.empty() || grows_last_;
+  return there ? coloured(*last_) : nullptr;
+}
+
 SharedFrame Progressive::coloured(Frame frame) {
   recolour_ = false;
   frame.pool_bytes = live_.tracer().pool_bytes();
@@ -216,15 +247,30 @@ SharedFrame Progressive::coloured(Frame frame) {
   frame.pools_uploaded = live_.tracer().pools_uploaded();
   if (frame.mode == ViewMode::shaded) {
     if (!table_ || table_->display() != display_of(document_)) table_.emplace(display_of(document_));
-    frame.display = frame.is_seen ? moving_.display(frame.image, frame.view, document_.eye_dome, *table_)
-                                  : table_->rgba(frame.image.rgba);
-    if (!frame.moving) moving_.rest(frame.image, frame.display);
+    if (shared_ != nullptr) {
+      display_on_device(frame);
+    } else {
+      frame.display = frame.is_seen ? moving_.display(frame.image, frame.view, document_.eye_dome, *table_)
+                                    : table_->rgba(frame.image.rgba);
+      if (!frame.moving) moving_.rest(frame.image, frame.display);
+    }
   } else {
     frame.range = color_range(frame.image.aov, frame.mode);
     frame.display = false_color(frame.image.aov, frame.mode, frame.range);
   }
   last_ = std::make_shared<const Frame>(std::move(frame));
   return last_;
+}
+
+void Progressive::display_on_device(Frame& frame) {
+  if (!screen_) screen_.emplace(*shared_);
+  const ShownAs how{*table_, frame.view, frame.moving, frame.is_seen, document_.eye_dome};
+  if (!frame.image.rgba.empty()) {
+    frame.shown = screen_->show(frame.image, how);
+    return;
+  }
+  frame.shown = screen_->show(live_.tracer().grown(), how);
+  if (screen_->has_cut_loops()) static_cast<void>(live_.tracer().picture());  // which says so
 }
 
 }  // namespace splatray

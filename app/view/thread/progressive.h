@@ -6,12 +6,13 @@
 #include <memory>
 #include <optional>
 
+#include "app/view/display/display_table.h"
+#include "app/view/display/moving_picture.h"
+#include "app/view/display/screen.h"
 #include "app/view/model/document.h"
 #include "app/view/model/frame.h"
 #include "app/view/thread/live_scene.h"
-#include "app/view/thread/moving_picture.h"
 #include "app/view/thread/resolution.h"
-#include "app/view/window/display_table.h"
 
 namespace splatray {
 
@@ -23,7 +24,10 @@ class Progressive {
  public:
   using Clock = std::chrono::steady_clock;
 
-  explicit Progressive(LiveScene& live, std::string device) : live_(live), device_(std::move(device)) {}
+  /// `device`: its name. `shared`: the live scene's, where it also shows pictures, which then stay there; else null, and they are
+  /// brought to the host. It must outlive this and the frames.
+  Progressive(LiveScene& live, std::string device, const VulkanDevice* shared = nullptr)
+      : live_(live), device_(std::move(device)), shared_(shared) {}
 
   /// Shows this from now on, in a window of `window_px` pixels. A document equal to the last changes nothing; another starts
   /// the picture anew, with a coarse one until nothing has changed for a while. Only another exposure recolours it.
@@ -52,10 +56,16 @@ class Progressive {
   void trace_aovs(Frame& frame, const Settings& settings, const std::function<bool()>& stop);
   [[nodiscard]] Settings settings() const;
   [[nodiscard]] Frame new_frame(glm::uvec2 size_px, double scale) const;
+  void begin(const View& view, const Settings& settings);
+  void take_grown(Frame& frame);
+  [[nodiscard]] SharedFrame recoloured();
   [[nodiscard]] SharedFrame coloured(Frame frame);
+  void display_on_device(Frame& frame);
 
   LiveScene& live_;
   std::string device_;
+  const VulkanDevice* shared_;
+  std::optional<Screen> screen_;  ///< made with the first picture; none where `shared_` is null
   Document document_;
   glm::uvec2 window_px_{0};
   Stage stage_ = Stage::finished;
@@ -66,7 +76,8 @@ class Progressive {
   std::optional<DisplayTable> table_;
   MovingPicture moving_;
   SharedFrame last_;
-  std::vector<vec4> half_;  ///< means of the first half of the samples
+  bool grows_last_ = false;  ///< the tracer's picture begun is what last_ shows
+  std::vector<vec4> half_;   ///< means of the first half of the samples
   /// The picture's pixels without noise; those of a picture that is no longer shown are not used.
   std::future<std::vector<vec4>> filter_;
   bool recolour_ = false;  ///< last_ has another exposure

@@ -19,8 +19,11 @@ constexpr std::size_t MANY_SPLATS = 4'000'000;
 
 }  // namespace
 
-RenderThread::RenderThread(const std::string& wanted, std::function<void()> wake)
-    : device_(open_device(wanted)), wake_(std::move(wake)), thread_([this] { run(); }) {}
+RenderThread::RenderThread(const Device& device, const VulkanDevice* shared, std::function<void()> wake)
+    : device_(device),
+      progressive_(live_, device.info().name, shared),
+      wake_(std::move(wake)),
+      thread_([this] { run(); }) {}
 
 RenderThread::~RenderThread() {
   {
@@ -143,7 +146,7 @@ void RenderThread::show_points(bool others, glm::uvec2 window_px) {
   Frame frame;
   frame.view = view;
   frame.of_points = true;
-  frame.device = device_->info().name;
+  frame.device = device_.info().name;
   PointStyle style;
   style.cutaway = shown_.request.view.look_in;
   style.eye_dome = shown_.eye_dome;

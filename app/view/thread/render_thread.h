@@ -58,9 +58,9 @@ struct RenderNews {
 /// All members are for one thread, the window's, and return at once.
 class RenderThread {
  public:
-  /// Opens the device `wanted` (as open_device does; throws Error) and starts. `wake` is called on its thread after
-  /// each delivery.
-  RenderThread(const std::string& wanted, std::function<void()> wake);
+  /// Traces with a device, which must outlive it and its frames; `shared` as Progressive has it. `wake` is called on its thread
+  /// after each delivery.
+  RenderThread(const Device& device, const VulkanDevice* shared, std::function<void()> wake);
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;
@@ -78,7 +78,6 @@ class RenderThread {
 
   /// What is new; `saving` as it is now.
   [[nodiscard]] RenderNews poll();
-  [[nodiscard]] std::uint32_t validation_messages() const { return device_->validation_messages(); }
 
  private:
   /// What the window asked for and the thread has not yet taken.
@@ -105,9 +104,9 @@ class RenderThread {
   void deliver(const std::function<void(RenderNews&)>& change);
   [[nodiscard]] bool something_waits();
 
-  std::unique_ptr<Device> device_;
-  LiveScene live_{*device_};
-  Progressive progressive_{live_, device_->info().name};
+  const Device& device_;
+  LiveScene live_{device_};
+  Progressive progressive_;
   Document shown_;       ///< by the thread
   Finds finds_;          ///< what is yet to be found of the scene
   SharedPoints points_;  ///< shown instead of the scene; null = none are

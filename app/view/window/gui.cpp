@@ -5,14 +5,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/view/ui/panels.h"
 
 namespace splatray {
 namespace {
-
-/// Pictures that the back end keeps buffers for, whatever the swapchain has: one frame is under way at a time.
-constexpr std::uint32_t FRAMES = 2;
 
 void check_imgui(VkResult result) { check(result, "drawing the window's controls"); }
 
@@ -32,8 +30,14 @@ Handle<VkDescriptorPool, vkDestroyDescriptorPool> make_descriptors(const VulkanD
 
 }  // namespace
 
-Gui::Gui(Window& window, const VulkanDevice& vulkan, CommandQueue& queue, VkRenderPass pass)
-    : window_(window), vulkan_(vulkan), queue_(queue), pass_(pass), scale_(window.content_scale()) {
+Gui::Gui(Window& window, const VulkanDevice& vulkan, CommandQueue& queue, VkRenderPass pass,
+         std::function<void()> finish)
+    : window_(window),
+      vulkan_(vulkan),
+      queue_(queue),
+      pass_(pass),
+      finish_(std::move(finish)),
+      scale_(window.content_scale()) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForVulkan(window.get(), true);
@@ -54,7 +58,7 @@ void Gui::start_renderer() {
   info.PhysicalDevice = vulkan_.physical_device;
   info.Device = vulkan_.device;
   info.QueueFamily = vulkan_.queue_family;
-  info.Queue = vulkan_.queue;
+  info.Queue = vulkan_.second_queue().get();
   info.DescriptorPool = descriptors_.get();
   info.MinImageCount = FRAMES;
   info.ImageCount = FRAMES;
@@ -68,7 +72,7 @@ void Gui::start_renderer() {
 void Gui::begin() {
   if (const float scale = window_.content_scale(); scale != scale_) {
     scale_ = scale;
-    check(vkDeviceWaitIdle(vulkan_.device), "waiting for the window");
+    finish_();
     ImGui_ImplVulkan_Shutdown();
     start_renderer();
   }

@@ -1,5 +1,8 @@
 /// Dear ImGui in the viewer's window: its GLFW and Vulkan back ends.
 #pragma once
+#include <cstdint>
+#include <functional>
+
 #include "app/view/window/window.h"
 #include "engine/device/vulkan/command_queue.h"
 #include "engine/device/vulkan/vulkan_device.h"
@@ -11,8 +14,12 @@ namespace splatray {
 /// One at a time, on the window's thread. Window, device, queue and pass must outlive it.
 class Gui {
  public:
-  /// Draws in `pass`.
-  Gui(Window& window, const VulkanDevice& vulkan, CommandQueue& queue, VkRenderPass pass);
+  /// Pictures that it may draw before the device has drawn the first of them.
+  static constexpr std::uint32_t FRAMES = 2;
+
+  /// Draws in `pass`; `finish` waits for all that it has drawn.
+  Gui(Window& window, const VulkanDevice& vulkan, CommandQueue& queue, VkRenderPass pass,
+      std::function<void()> finish);
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
@@ -39,6 +46,7 @@ class Gui {
   const VulkanDevice& vulkan_;
   CommandQueue& queue_;
   VkRenderPass pass_;
+  std::function<void()> finish_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> descriptors_;
   float scale_ = 1.0F;
 };

@@ -18,17 +18,6 @@ Handle<VkFence, vkDestroyFence> make_signalled_fence(const VulkanDevice& vulkan)
   return {vulkan.device, fence};
 }
 
-VkCommandBuffer make_commands(const VulkanDevice& vulkan) {
-  VkCommandBufferAllocateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  info.commandPool = vulkan.command_pool;
-  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  info.commandBufferCount = 1;
-  VkCommandBuffer commands = VK_NULL_HANDLE;
-  check(vkAllocateCommandBuffers(vulkan.device, &info, &commands), "making the window's command buffer");
-  return commands;
-}
-
 Handle<VkImage, vkDestroyImage> make_image(const VulkanDevice& vulkan, VkExtent2D size) {
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -56,54 +45,67 @@ VkOffset3D corner(VkExtent2D size) {
 
 }  // namespace
 
-Presenter::Presenter(Window& window) : window_(window), vulkan_("", false, window.needs()), queue_(vulkan_) {
+Presenter::Presenter(Window& window, const VulkanDevice& vulkan)
+    : window_(window),
+      vulkan_(vulkan),
+      queue_(vulkan, vulkan.second_queue()),
+      pool_(make_command_pool(vulkan)),
+      of_host_(vulkan, 0, Residence::host) {
   surface_.emplace(vulkan_.instance, window.make_surface(vulkan_.instance));
   format_ = choose_surface_format(vulkan_, surface_->get());
   pass_ = make_overlay_pass(vulkan_, format_.format);
-  acquired_ = make_semaphore(vulkan_);
-  drawn_ = make_signalled_fence(vulkan_);
-  commands_ = make_commands(vulkan_);
-  gui_.emplace(window, vulkan_, queue_, pass_.get());
+  for (Frame& frame : frames_) {
+    frame.commands = make_commands(vulkan_, pool_.get());
+    frame.acquired = make_semaphore(vulkan_);
+    frame.drawn = make_signalled_fence(vulkan_);
+  }
+  gui_.emplace(window, vulkan_, queue_, pass_.get(), [this] { finish(); });
 }
 
-Presenter::~Presenter() { vkDeviceWaitIdle(vulkan_.device); }
+Presenter::~Presenter() { vulkan_.second_queue().wait(); }
 
 void Presenter::set_picture(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint32_t height) {
-  wait_until_drawn();
-  if (width != size_.width || height != size_.height) {
-    size_ = {width, height};
-    picture_ = make_image(vulkan_, size_);
-    VkMemoryRequirements needs{};
-    vkGetImageMemoryRequirements(vulkan_.device, picture_.get(), &needs);
-    memory_ = allocate_memory(vulkan_, needs, Residence::device);
-    check(vkBindImageMemory(vulkan_.device, picture_.get(), memory_.handle.get(), 0),
-          "binding the shown picture's memory");
-    if (pixels_.size() < rgba.size()) pixels_ = VulkanBuffer(vulkan_, rgba.size(), 0, Residence::host);
-  }
-  std::memcpy(pixels_.mapped(), rgba.data(), rgba.size());
-  copied_ = false;
+  const std::shared_ptr<DevicePicture> picture = of_host_.take(rgba.size());
+  std::memcpy(picture->pixels.mapped(), rgba.data(), rgba.size());
+  set_picture(picture, width, height);
+}
+
+void Presenter::set_picture(SharedPicture picture, std::uint32_t width, std::uint32_t height) {
+  source_ = std::move(picture);
+  if (width == size_.width && height == size_.height) return;
+  finish();  // the image before may be being shown
+  size_ = {width, height};
+  image_ = make_image(vulkan_, size_);
+  VkMemoryRequirements needs{};
+  vkGetImageMemoryRequirements(vulkan_.device, image_.get(), &needs);
+  memory_ = allocate_memory(vulkan_, needs, Residence::device);
+  check(vkBindImageMemory(vulkan_.device, image_.get(), memory_.handle.get(), 0),
+        "binding the shown picture's memory");
 }
 
 void Presenter::draw(std::uint32_t picture_width) {
   const glm::uvec2 size = window_.framebuffer_size();
   if (size.x == 0 || size.y == 0) return;
   if (size != swapchain_size_) renew_swapchain();
-  wait_until_drawn();
-  const std::optional<std::uint32_t> index = acquire();
+  Frame& frame = frames_[next_];
+  wait_until_drawn(frame);
+  const std::optional<std::uint32_t> index = acquire(frame);
   if (!index) return;
-  record(swapchain_.pictures[*index], picture_width);
-  submit_and_present(*index);
+  record(frame, swapchain_.pictures[*index], picture_width);
+  submit(frame, swapchain_.pictures[*index].drawn.get());
+  next_ = (next_ + 1) % frames_.size();
+  present(*index);
 }
 
 /// A picture to draw, unless the window changes right now: then the swapchain is renewed for the next time.
-std::optional<std::uint32_t> Presenter::acquire() {
+std::optional<std::uint32_t> Presenter::acquire(const Frame& frame) {
   if (swapchain_.pictures.empty()) {
     renew_swapchain();
     if (swapchain_.pictures.empty()) return {};
   }
   std::uint32_t index = 0;
   const VkResult result = vkAcquireNextImageKHR(vulkan_.device, swapchain_.handle.get(), UINT64_MAX,
-                                                acquired_.get(), VK_NULL_HANDLE, &index);
+                                                frame.acquired.get(), VK_NULL_HANDLE, &index);
   if (result == VK_ERROR_SURFACE_LOST_KHR) {
     swapchain_ = {};
     surface_.reset();
@@ -118,74 +120,84 @@ std::optional<std::uint32_t> Presenter::acquire() {
   return index;
 }
 
-void Presenter::record(const Swapchain::Picture& target, std::uint32_t picture_width) {
-  VkCommandBufferBeginInfo begin{};
-  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  check(vkBeginCommandBuffer(commands_, &begin), "recording the window");
-  record_picture(target.image, picture_width);
+void Presenter::record(Frame& frame, const Swapchain::Picture& target, std::uint32_t picture_width) {
+  begin_commands(frame.commands);
+  record_picture(frame, target.image, picture_width);
   VkRenderPassBeginInfo pass{};
   pass.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
   pass.renderPass = pass_.get();
   pass.framebuffer = target.framebuffer.get();
   pass.renderArea.extent = swapchain_.extent;
-  vkCmdBeginRenderPass(commands_, &pass, VK_SUBPASS_CONTENTS_INLINE);
-  gui_->record(commands_);
-  vkCmdEndRenderPass(commands_);
-  check(vkEndCommandBuffer(commands_), "recording the window");
+  vkCmdBeginRenderPass(frame.commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
+  gui_->record(frame.commands);
+  vkCmdEndRenderPass(frame.commands);
+  check(vkEndCommandBuffer(frame.commands), "recording the window");
 }
 
-void Presenter::record_picture(VkImage target, std::uint32_t picture_width) {
+void Presenter::record_picture(Frame& frame, VkImage target, std::uint32_t picture_width) {
   constexpr VkImageLayout SOURCE = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                           TARGET = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-  record_layout(commands_, target, VK_IMAGE_LAYOUT_UNDEFINED, TARGET);
+  const VkCommandBuffer commands = frame.commands;
+  record_layout(commands, target, VK_IMAGE_LAYOUT_UNDEFINED, TARGET);
   const VkExtent2D area{std::min(picture_width, swapchain_.extent.width), swapchain_.extent.height};
   const bool covered = size_.width > 0 && area.width == swapchain_.extent.width;
   if (!covered) {
     const VkClearColorValue dark{{0.1F, 0.1F, 0.11F, 1.0F}};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdClearColorImage(commands_, target, TARGET, &dark, 1, &all);
-    record_transfer_order(commands_, target);
+    vkCmdClearColorImage(commands, target, TARGET, &dark, 1, &all);
+    record_transfer_order(commands, target);
   }
   if (size_.width == 0 || area.width == 0) return;
-  if (!copied_) {
-    record_layout(commands_, picture_.get(), VK_IMAGE_LAYOUT_UNDEFINED, TARGET);
+  if (source_) {
+    record_layout(commands, image_.get(), VK_IMAGE_LAYOUT_UNDEFINED, TARGET);
     const VkBufferImageCopy copy{0, 0, 0, COLOR_LAYER, {}, {size_.width, size_.height, 1}};
-    vkCmdCopyBufferToImage(commands_, pixels_.get(), picture_.get(), TARGET, 1, &copy);
-    record_layout(commands_, picture_.get(), TARGET, SOURCE);
-    copied_ = true;
+    vkCmdCopyBufferToImage(commands, source_->pixels.get(), image_.get(), TARGET, 1, &copy);
+    record_layout(commands, image_.get(), TARGET, SOURCE);
+    frame.source = std::move(source_);
   }
   const bool same = size_.width == area.width && size_.height == area.height;
   const VkImageBlit blit{COLOR_LAYER, {{}, corner(size_)}, COLOR_LAYER, {{}, corner(area)}};
-  vkCmdBlitImage(commands_, picture_.get(), SOURCE, target, TARGET, 1, &blit,
+  vkCmdBlitImage(commands, image_.get(), SOURCE, target, TARGET, 1, &blit,
                  same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
 }
 
-void Presenter::submit_and_present(std::uint32_t index) {
-  const VkSemaphore acquired = acquired_.get(), drawn = swapchain_.pictures[index].drawn.get();
-  const VkPipelineStageFlags writes = VK_PIPELINE_STAGE_TRANSFER_BIT;
+void Presenter::submit(const Frame& frame, VkSemaphore drawn) {
+  const bool waits = frame.source && frame.source->made;
+  const std::array<VkSemaphore, 2> awaited = {frame.acquired.get(),
+                                              waits ? frame.source->made->get() : VK_NULL_HANDLE};
+  const std::array<std::uint64_t, 2> values = {0, waits ? frame.source->made_at : 0};
+  const std::array<VkPipelineStageFlags, 2> copies = {VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                                      VK_PIPELINE_STAGE_TRANSFER_BIT};
+  VkTimelineSemaphoreSubmitInfo timeline{};
+  timeline.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+  timeline.waitSemaphoreValueCount = waits ? 2 : 1;
+  timeline.pWaitSemaphoreValues = values.data();
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-  submit.waitSemaphoreCount = 1;
-  submit.pWaitSemaphores = &acquired;
-  submit.pWaitDstStageMask = &writes;
+  submit.pNext = &timeline;
+  submit.waitSemaphoreCount = timeline.waitSemaphoreValueCount;
+  submit.pWaitSemaphores = awaited.data();
+  submit.pWaitDstStageMask = copies.data();
   submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &commands_;
+  submit.pCommandBuffers = &frame.commands;
   submit.signalSemaphoreCount = 1;
   submit.pSignalSemaphores = &drawn;
-  const VkFence fence = drawn_.get();
+  const VkFence fence = frame.drawn.get();
   check(vkResetFences(vulkan_.device, 1, &fence), "resetting the window's fence");
-  check(vkQueueSubmit(vulkan_.queue, 1, &submit, fence), "drawing the window");
+  check(vulkan_.second_queue().submit(submit, fence), "drawing the window");
+}
 
+void Presenter::present(std::uint32_t index) {
+  const VkSemaphore drawn = swapchain_.pictures[index].drawn.get();
   const VkSwapchainKHR swapchain = swapchain_.handle.get();
-  VkPresentInfoKHR present{};
-  present.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
-  present.waitSemaphoreCount = 1;
-  present.pWaitSemaphores = &drawn;
-  present.swapchainCount = 1;
-  present.pSwapchains = &swapchain;
-  present.pImageIndices = &index;
-  const VkResult result = vkQueuePresentKHR(vulkan_.queue, &present);
+  VkPresentInfoKHR info{};
+  info.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
+  info.waitSemaphoreCount = 1;
+  info.pWaitSemaphores = &drawn;
+  info.swapchainCount = 1;
+  info.pSwapchains = &swapchain;
+  info.pImageIndices = &index;
+  const VkResult result = vulkan_.second_queue().present(info);
   if (result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR ||
       result == VK_ERROR_SURFACE_LOST_KHR) {
     swapchain_size_ = {};  // renewed by the next draw
@@ -195,15 +207,22 @@ void Presenter::submit_and_present(std::uint32_t index) {
 }
 
 void Presenter::renew_swapchain() {
-  check(vkDeviceWaitIdle(vulkan_.device), "waiting for the window");
+  finish();
   swapchain_size_ = window_.framebuffer_size();
   swapchain_ =
       Swapchain(vulkan_, surface_->get(), format_, pass_.get(), swapchain_size_, swapchain_.handle.get());
 }
 
-void Presenter::wait_until_drawn() {
-  const VkFence fence = drawn_.get();
+void Presenter::wait_until_drawn(Frame& frame) {
+  const VkFence fence = frame.drawn.get();
   check(vkWaitForFences(vulkan_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the window");
+  frame.source.reset();
+}
+
+/// Waits for all frames, and until they are shown.
+void Presenter::finish() {
+  check(vulkan_.second_queue().wait(), "waiting for the window");
+  for (Frame& frame : frames_) wait_until_drawn(frame);
 }
 
 }  // namespace splatray

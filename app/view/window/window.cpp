@@ -185,7 +185,12 @@ DeviceNeeds Window::needs() const {
   std::uint32_t count = 0;
   const char** names = glfwGetRequiredInstanceExtensions(&count);
   if (names == nullptr) throw no_window("no way to show Vulkan's pictures on this display found");
-  return {{names, names + count}, {VK_KHR_SWAPCHAIN_EXTENSION_NAME}, reason_not_to_present, nullptr};
+  DeviceNeeds needs;
+  needs.instance_extensions = {names, names + count};
+  needs.device_extensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  needs.refusal = reason_not_to_present;
+  needs.second_queue = true;
+  return needs;
 }
 
 VkSurfaceKHR Window::make_surface(VkInstance instance) const {

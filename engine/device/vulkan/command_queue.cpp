@@ -48,7 +48,39 @@ void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
                        nullptr, 0, nullptr, 1, &barrier);
 }
 
-CommandQueue::CommandQueue(const VulkanDevice& vulkan) : vulkan_(vulkan) {
+Handle<VkCommandPool, vkDestroyCommandPool> make_command_pool(const VulkanDevice& vulkan) {
+  VkCommandPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+  info.queueFamilyIndex = vulkan.queue_family;
+  VkCommandPool pool = VK_NULL_HANDLE;
+  check(vkCreateCommandPool(vulkan.device, &info, nullptr, &pool), "making a command pool");
+  return {vulkan.device, pool};
+}
+
+VkCommandBuffer make_commands(const VulkanDevice& vulkan, VkCommandPool pool) {
+  VkCommandBufferAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  info.commandPool = pool;
+  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  info.commandBufferCount = 1;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  check(vkAllocateCommandBuffers(vulkan.device, &info, &commands), "making a command buffer");
+  return commands;
+}
+
+void begin_commands(VkCommandBuffer commands) {
+  VkCommandBufferBeginInfo begin{};
+  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  check(vkBeginCommandBuffer(commands, &begin), "recording commands");
+}
+
+CommandQueue::CommandQueue(const VulkanDevice& vulkan, const SharedQueue& queue)
+    : vulkan_(vulkan),
+      queue_(queue),
+      pool_(make_command_pool(vulkan)),
+      commands_(make_commands(vulkan, pool_.get())) {
   VkFenceCreateInfo fence_info{};
   fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   VkFence fence = VK_NULL_HANDLE;
@@ -65,22 +97,10 @@ CommandQueue::CommandQueue(const VulkanDevice& vulkan) : vulkan_(vulkan) {
     check(vkCreateQueryPool(vulkan.device, &query_info, nullptr, &queries), "making a query pool");
     timestamps_ = {vulkan.device, queries};
   }
-
-  VkCommandBufferAllocateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  info.commandPool = vulkan.command_pool;
-  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  info.commandBufferCount = 1;
-  check(vkAllocateCommandBuffers(vulkan.device, &info, &commands_), "making a command buffer");
 }
 
-CommandQueue::~CommandQueue() { vkFreeCommandBuffers(vulkan_.device, vulkan_.command_pool, 1, &commands_); }
-
 double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
-  VkCommandBufferBeginInfo begin{};
-  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-  check(vkBeginCommandBuffer(commands_, &begin), "recording commands");
+  begin_commands(commands_);
   const VkQueryPool queries = timestamps_.get();
   if (queries != VK_NULL_HANDLE) {
     vkCmdResetQueryPool(commands_, queries, 0, 2);
@@ -110,7 +130,7 @@ void CommandQueue::submit_and_wait() {
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands_;
   VkFence fence = fence_.get();
-  check(vkQueueSubmit(vulkan_.queue, 1, &submit, fence), "submitting work to the device");
+  check(queue_.submit(submit, fence), "submitting work to the device");
   check(vkWaitForFences(vulkan_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the device");
   check(vkResetFences(vulkan_.device, 1, &fence), "resetting a fence");
 }

@@ -16,11 +16,21 @@ void record_barrier(VkCommandBuffer commands);
 /// Likewise for a colour image of one level and layer, and moves it from one layout to another.
 void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
 
+/// A pool of command buffers that are recorded anew, for one thread at a time.
+[[nodiscard]] Handle<VkCommandPool, vkDestroyCommandPool> make_command_pool(const VulkanDevice& vulkan);
+
+/// A command buffer of a pool, which frees it.
+[[nodiscard]] VkCommandBuffer make_commands(const VulkanDevice& vulkan, VkCommandPool pool);
+
+/// Begins to record what is submitted once.
+void begin_commands(VkCommandBuffer commands);
+
 /// Records, submits and waits. One thread at a time. The device must outlive it.
 class CommandQueue {
  public:
-  explicit CommandQueue(const VulkanDevice& vulkan);
-  ~CommandQueue();
+  explicit CommandQueue(const VulkanDevice& vulkan) : CommandQueue(vulkan, *vulkan.queue) {}
+  /// Hands its work to another queue than the device's first.
+  CommandQueue(const VulkanDevice& vulkan, const SharedQueue& queue);
   CommandQueue(const CommandQueue&) = delete;
   CommandQueue& operator=(const CommandQueue&) = delete;
 
@@ -41,6 +51,8 @@ class CommandQueue {
   [[nodiscard]] double timestamps_ms() const;
 
   const VulkanDevice& vulkan_;
+  const SharedQueue& queue_;
+  Handle<VkCommandPool, vkDestroyCommandPool> pool_;
   Handle<VkFence, vkDestroyFence> fence_;
   Handle<VkQueryPool, vkDestroyQueryPool> timestamps_;  ///< null where the queue has none
   std::uint64_t timestamp_mask_ = 0;

@@ -72,11 +72,9 @@ namespace splatray {
   FUNCTION(vkDestroyShaderModule)                     \
   FUNCTION(vkDestroySurfaceKHR)                       \
   FUNCTION(vkDestroySwapchainKHR)                     \
-  FUNCTION(vkDeviceWaitIdle)                          \
   FUNCTION(vkEndCommandBuffer)                        \
   FUNCTION(vkEnumerateInstanceLayerProperties)        \
   FUNCTION(vkEnumeratePhysicalDevices)                \
-  FUNCTION(vkFreeCommandBuffers)                      \
   FUNCTION(vkFreeMemory)                              \
   FUNCTION(vkGetBufferMemoryRequirements)             \
   FUNCTION(vkGetDeviceQueue)                          \
@@ -96,10 +94,12 @@ namespace splatray {
   FUNCTION(vkMapMemory)                               \
   FUNCTION(vkQueuePresentKHR)                         \
   FUNCTION(vkQueueSubmit)                             \
+  FUNCTION(vkQueueWaitIdle)                           \
   FUNCTION(vkResetCommandBuffer)                      \
   FUNCTION(vkResetFences)                             \
   FUNCTION(vkUpdateDescriptorSets)                    \
-  FUNCTION(vkWaitForFences)
+  FUNCTION(vkWaitForFences)                           \
+  FUNCTION(vkWaitSemaphores)
 
 /// The place of each function in a table.
 enum class VulkanFunctionNumber : std::size_t {

@@ -1,6 +1,7 @@
 #include "engine/device/vulkan/vulkan_device.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -38,6 +39,13 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(MessageCount* count) {
 bool validation_in_environment() {
   const char* value = std::getenv("SPLATRAY_VALIDATION");
   return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+std::uint32_t queue_count(VkPhysicalDevice device, std::uint32_t family) {
+  std::uint32_t count = family + 1;
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  return families[family].queueCount;
 }
 
 DeviceLimits device_limits(const VkPhysicalDeviceLimits& limits, std::uint64_t allocation_bytes) {
@@ -111,12 +119,13 @@ void VulkanDevice::choose_device(const VulkanStart& started, const std::string& 
   std::vector<DeviceInfo> infos;
   for (VkPhysicalDevice candidate : started.devices) {
     infos.push_back(describe_device(candidate));
-    if (infos.back().refused.empty() && needs.refusal)
+    if (infos.back().refused.empty() && needs.refusal && !needs.optional)
       infos.back().refused = needs.refusal(instance, candidate);
   }
   const std::size_t chosen = splatray::choose_device(infos, wanted, started.said);
   physical_device = started.devices[chosen];
   info_ = infos[chosen];
+  meets_needs_ = !needs.refusal || needs.refusal(instance, physical_device).empty();
 }
 
 void VulkanDevice::create_device(const DeviceNeeds& needs) {
@@ -131,31 +140,42 @@ void VulkanDevice::create_device(const DeviceNeeds& needs) {
   limits_ = device_limits(properties.limits, limits.maxMemoryAllocationSize);
 
   queue_family = compute_queue_family(physical_device);
-  const float priority = 1.0F;
+  const std::uint32_t queues =
+      needs.second_queue && meets_needs_ ? std::min(queue_count(physical_device, queue_family), 2U) : 1;
+  VkResult made = make_device(needs, queues);
+  if (needs.optional && meets_needs_ &&
+      (made == VK_ERROR_EXTENSION_NOT_PRESENT || made == VK_ERROR_FEATURE_NOT_PRESENT)) {
+    meets_needs_ = false;
+    made = make_device(needs, queues);
+  }
+  check(made, "opening the Vulkan device");
+  queue.emplace(device, queue_family, 0);
+  if (queues > 1) second_.emplace(device, queue_family, 1);
+}
+
+/// Makes the device, with what is needed where it has that.
+VkResult VulkanDevice::make_device(const DeviceNeeds& needs, std::uint32_t queues) {
+  constexpr std::array PRIORITIES = {1.0F, 1.0F};
   VkDeviceQueueCreateInfo queue_info{};
   queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
   queue_info.queueFamilyIndex = queue_family;
-  queue_info.queueCount = 1;
-  queue_info.pQueuePriorities = &priority;
+  queue_info.queueCount = queues;
+  queue_info.pQueuePriorities = PRIORITIES.data();
+  VkPhysicalDeviceTimelineSemaphoreFeatures timelines{};  // all devices of Vulkan 1.2 have them
+  timelines.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
+  timelines.pNext = meets_needs_ ? const_cast<void*>(needs.features) : nullptr;
+  timelines.timelineSemaphore = VK_TRUE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-  info.pNext = needs.features;
+  info.pNext = &timelines;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue_info;
-  info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());
+  info.enabledExtensionCount = meets_needs_ ? static_cast<std::uint32_t>(needs.device_extensions.size()) : 0;
   info.ppEnabledExtensionNames = needs.device_extensions.data();
-  check(vkCreateDevice(physical_device, &info, nullptr, &device), "opening the Vulkan device");
-  vkGetDeviceQueue(device, queue_family, 0, &queue);
-
-  VkCommandPoolCreateInfo pool_info{};
-  pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-  pool_info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-  pool_info.queueFamilyIndex = queue_family;
-  check(vkCreateCommandPool(device, &pool_info, nullptr, &command_pool), "making a command pool");
+  return vkCreateDevice(physical_device, &info, nullptr, &device);
 }
 
 void VulkanDevice::destroy() {
-  if (command_pool != VK_NULL_HANDLE) vkDestroyCommandPool(device, command_pool, nullptr);
   if (device != VK_NULL_HANDLE) vkDestroyDevice(device, nullptr);
   if (messenger_ != VK_NULL_HANDLE) {
     const auto end = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(

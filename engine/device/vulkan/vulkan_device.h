@@ -1,15 +1,17 @@
-/// A Vulkan device: instance, device and queue; headless unless given what a window needs. No extension is required; Vulkan 1.2.
+/// A Vulkan device: instance, device and queues; headless unless given what a window needs. No extension is required; Vulkan 1.2.
 #pragma once
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/device/device.h"
 #include "engine/device/vulkan/functions.h"
 #include "engine/device/vulkan/instance.h"
+#include "engine/device/vulkan/shared_queue.h"
 
 namespace splatray {
 
@@ -20,6 +22,8 @@ struct DeviceNeeds {
   /// Why the device's compute queue will not do; empty = it will.
   std::function<std::string(VkInstance, VkPhysicalDevice)> refusal;
   const void* features = nullptr;  ///< of device_extensions, as VkDeviceCreateInfo::pNext has them
+  bool optional = false;      ///< a device that has not got it is opened without: VulkanDevice::meets_needs
+  bool second_queue = false;  ///< VulkanDevice::second_queue is one of its own where the device has two
 };
 
 class VulkanDevice final : public Device {
@@ -37,6 +41,10 @@ class VulkanDevice final : public Device {
   [[nodiscard]] DeviceProfile profile() const override;
   [[nodiscard]] std::unique_ptr<Queue> make_queue(const QueueOptions& options = {}) const override;
   [[nodiscard]] std::uint32_t validation_messages() const override { return validation_messages_; }
+  /// Whether it has what it was asked to have; always where that was not optional.
+  [[nodiscard]] bool meets_needs() const { return meets_needs_; }
+  /// For another thread's work than that of `queue`; the same where the device has but one.
+  [[nodiscard]] const SharedQueue& second_queue() const { return second_ ? *second_ : *queue; }
   /// Whether the device is a software driver on the CPU.
   [[nodiscard]] bool is_cpu() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 
@@ -44,8 +52,7 @@ class VulkanDevice final : public Device {
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;
-  VkQueue queue = VK_NULL_HANDLE;
-  VkCommandPool command_pool = VK_NULL_HANDLE;
+  std::optional<SharedQueue> queue;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceMemoryProperties memory{};
 
@@ -54,10 +61,13 @@ class VulkanDevice final : public Device {
   void create_messenger();
   void choose_device(const VulkanStart& started, const std::string& wanted, const DeviceNeeds& needs);
   void create_device(const DeviceNeeds& needs);
+  [[nodiscard]] VkResult make_device(const DeviceNeeds& needs, std::uint32_t queues);
   void destroy();
 
   DeviceInfo info_;
   DeviceLimits limits_;
+  bool meets_needs_ = true;
+  std::optional<SharedQueue> second_;
   std::atomic<std::uint32_t> validation_messages_{0};  ///< counted on whatever thread calls Vulkan
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/library/display_image.h"
-#include "shaders/layout.h"
+#include "shaders/display/display_layout.h"
 
 namespace splatray {
 
@@ -24,9 +24,11 @@ class DisplayTable {
   /// Each pixel as r, g, b, 255.
   [[nodiscard]] std::vector<std::uint8_t> rgba(std::span<const vec4> pixels) const;
   [[nodiscard]] const Display& display() const { return display_; }
+  /// The table, by the upper bits of a float.
+  [[nodiscard]] std::span<const std::uint8_t> values() const { return values_; }
 
  private:
-  static constexpr std::uint32_t DROPPED_BITS = 15;
+  static constexpr std::uint32_t DROPPED_BITS = DISPLAY_DROPPED_BITS;
 
   Display display_;
   bool mixes_;  ///< the tone curve mixes channels

@@ -1,4 +1,4 @@
-#include "app/view/window/display_table.h"
+#include "app/view/display/display_table.h"
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,9 @@
-#include "app/view/thread/moving_picture.h"
+#include "app/view/display/moving_picture.h"
 
 #include <algorithm>
 #include <array>
 
-#include "app/view/thread/eye_dome.h"
+#include "app/view/display/eye_dome.h"
 #include "engine/base/srgb.h"
 
 namespace splatray {

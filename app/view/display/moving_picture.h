@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/view/window/display_table.h"
+#include "app/view/display/display_table.h"
 #include "engine/image/image.h"
 
 namespace splatray {

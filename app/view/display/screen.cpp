@@ -1,0 +1,255 @@
+#include "app/view/display/screen.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "app/view/display/eye_dome.h"
+#include "engine/base/srgb.h"
+#include "engine/device/program.h"
+#include "engine/device/vulkan/pipeline.h"
+#include "shaders/spirv.h"
+
+namespace splatray {
+namespace {
+
+constexpr VkBufferUsageFlags STORAGE = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+VulkanBuffer words(const VulkanDevice& vulkan, std::uint32_t count) {
+  return {vulkan, count * sizeof(std::uint32_t), STORAGE};
+}
+
+std::shared_ptr<const TimelineSemaphore> make_timeline(const VulkanDevice& vulkan) {
+  VkSemaphoreTypeCreateInfo type{};
+  type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
+  type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+  VkSemaphoreCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+  info.pNext = &type;
+  VkSemaphore semaphore = VK_NULL_HANDLE;
+  check(vkCreateSemaphore(vulkan.device, &info, nullptr, &semaphore), "making a semaphore");
+  return std::make_shared<const TimelineSemaphore>(vulkan.device, semaphore);
+}
+
+std::uint32_t tone_number(Tone tone) {
+  if (tone == Tone::neutral) return DISPLAY_TONE_NEUTRAL;
+  return tone == Tone::agx ? DISPLAY_TONE_AGX : DISPLAY_TONE_TABLE;
+}
+
+/// What follows the display's own table in the curves.
+std::vector<std::uint32_t> fixed_curves() {
+  std::vector<std::uint32_t> fixed(DISPLAY_CURVE_WORDS - DISPLAY_AS_IT_IS);
+  const auto as_it_is = std::make_unique<DisplayTable>(Display(0.0, Tone::none));
+  std::memcpy(fixed.data(), as_it_is->values().data(), as_it_is->values().size());
+  for (std::uint32_t i = 0; i < 256; ++i)
+    fixed[DISPLAY_LINEAR - DISPLAY_AS_IT_IS + i] =
+        std::bit_cast<std::uint32_t>(srgb_to_linear(static_cast<float>(i) / 255.0F));
+  return fixed;
+}
+
+DisplayParams params_of(const GrownPicture& grown, const ShownAs& how) {
+  const DomeScale dome = dome_scale(how.view, how.eye_dome);
+  return {.width = grown.width,
+          .height = grown.height,
+          .step = DISPLAY_PLAIN,
+          .samples = grown.samples,
+          .next_row = grown.next_row,
+          .samples_before = grown.samples_before,
+          .tone = tone_number(how.table.display().tone),
+          .factor = static_cast<float>(std::exp2(how.table.display().exposure_ev)),
+          .dome_exponent = dome.exponent,
+          .per_world = dome.per_world};
+}
+
+}  // namespace
+
+Screen::Screen(const VulkanDevice& vulkan)
+    : vulkan_(vulkan),
+      transfers_(vulkan),
+      pool_(make_command_pool(vulkan)),
+      commands_(make_commands(vulkan, pool_.get())),
+      params_(vulkan, sizeof(DisplayParams), STORAGE),
+      curves_(words(vulkan, DISPLAY_CURVE_WORDS)),
+      state_(words(vulkan, DISPLAY_STATE_WORDS)),
+      ring_(vulkan, STORAGE, Residence::device),
+      made_(make_timeline(vulkan)) {
+  make_set();
+  pipeline_ = make_pipeline(vulkan, {}, DISPLAY, layout_.get(), VK_NULL_HANDLE);
+  const std::vector<std::uint32_t> fixed = fixed_curves();
+  transfers_.upload(curves_, std::as_bytes(std::span(fixed)), DISPLAY_AS_IT_IS * sizeof(std::uint32_t));
+  forget();
+}
+
+Screen::~Screen() {
+  const VkSemaphore semaphore = made_->get();
+  VkSemaphoreWaitInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
+  info.semaphoreCount = 1;
+  info.pSemaphores = &semaphore;
+  info.pValues = &made_at_;
+  vkWaitSemaphores(vulkan_.device, &info, UINT64_MAX);
+}
+
+void Screen::make_set() {
+  std::array<VkDescriptorSetLayoutBinding, DISPLAY_BINDINGS> bindings{};
+  for (std::uint32_t i = 0; i < DISPLAY_BINDINGS; ++i)
+    bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  VkDescriptorSetLayoutCreateInfo set_info{};
+  set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  set_info.bindingCount = DISPLAY_BINDINGS;
+  set_info.pBindings = bindings.data();
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+  check(vkCreateDescriptorSetLayout(vulkan_.device, &set_info, nullptr, &set_layout),
+        "making a descriptor set layout");
+  set_layout_ = {vulkan_.device, set_layout};
+  VkPipelineLayoutCreateInfo layout_info{};
+  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout_info.setLayoutCount = 1;
+  layout_info.pSetLayouts = &set_layout;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  check(vkCreatePipelineLayout(vulkan_.device, &layout_info, nullptr, &layout), "making a pipeline layout");
+  layout_ = {vulkan_.device, layout};
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, DISPLAY_BINDINGS};
+  VkDescriptorPoolCreateInfo pool_info{};
+  pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  pool_info.maxSets = 1;
+  pool_info.poolSizeCount = 1;
+  pool_info.pPoolSizes = &size;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  check(vkCreateDescriptorPool(vulkan_.device, &pool_info, nullptr, &pool), "making a descriptor pool");
+  sets_ = {vulkan_.device, pool};
+  VkDescriptorSetAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  info.descriptorPool = pool;
+  info.descriptorSetCount = 1;
+  info.pSetLayouts = &set_layout;
+  check(vkAllocateDescriptorSets(vulkan_.device, &info, &set_), "making a descriptor set");
+  bind(DISPLAY_BIND_PARAMS, params_.get());
+  bind(DISPLAY_BIND_CURVES, curves_.get());
+  bind(DISPLAY_BIND_STATE, state_.get());
+}
+
+void Screen::bind(std::uint32_t binding, VkBuffer buffer) const {
+  const VkDescriptorBufferInfo buffer_info{buffer, 0, VK_WHOLE_SIZE};
+  VkWriteDescriptorSet write{};
+  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+  write.dstSet = set_;
+  write.dstBinding = binding;
+  write.descriptorCount = 1;
+  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  write.pBufferInfo = &buffer_info;
+  vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
+}
+
+void Screen::wait() const {
+  const VkSemaphore semaphore = made_->get();
+  VkSemaphoreWaitInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
+  info.semaphoreCount = 1;
+  info.pSemaphores = &semaphore;
+  info.pValues = &made_at_;
+  check(vkWaitSemaphores(vulkan_.device, &info, UINT64_MAX), "waiting for a picture");
+}
+
+void Screen::forget() {
+  wait();
+  std::array<std::uint32_t, DISPLAY_STATE_WORDS> none{};
+  none[DISPLAY_GAIN] = std::bit_cast<std::uint32_t>(1.0F);
+  transfers_.upload(state_, std::as_bytes(std::span(none)));
+  rests_ = false;
+}
+
+void Screen::take_curve(const DisplayTable& table) {
+  if (curve_ == table.display()) return;
+  transfers_.upload(curves_, std::as_bytes(table.values()));
+  curve_ = table.display();
+}
+
+SharedPicture Screen::show(const Image& image, const ShownAs& how) {
+  wait();
+  const auto bytes = std::as_bytes(std::span(image.rgba));
+  if (means_.get() == VK_NULL_HANDLE || means_.size() < bytes.size())
+    means_ = VulkanBuffer(vulkan_, bytes.size(), STORAGE);
+  transfers_.upload(means_, bytes);
+  return show({image.width, image.height, &means_, &means_, 0, 1, 0}, how);
+}
+
+SharedPicture Screen::show(const GrownPicture& grown, const ShownAs& how) {
+  wait();
+  take_curve(how.table);
+  const std::shared_ptr<DevicePicture> picture =
+      ring_.take(std::uint64_t{grown.width} * grown.height * sizeof(std::uint32_t));
+  bind(DISPLAY_BIND_MEANS, static_cast<const VulkanBuffer*>(grown.means)->get());
+  bind(DISPLAY_BIND_BEFORE, static_cast<const VulkanBuffer*>(grown.before)->get());
+  bind(DISPLAY_BIND_PIXELS, picture->pixels.get());
+  record(params_of(grown, how), how);
+  submit();
+  picture->made = made_;
+  picture->made_at = made_at_;
+  return picture;
+}
+
+bool Screen::has_cut_loops() {
+  if (!vulkan_.is_cpu()) return false;
+  wait();
+  std::array<std::uint32_t, DISPLAY_STATE_WORDS> state{};
+  transfers_.download(state_, std::as_writable_bytes(std::span(state)));
+  return state[DISPLAY_CUT] != 0;
+}
+
+void Screen::record(const DisplayParams& params, const ShownAs& how) {
+  constexpr VkDeviceSize WORD = sizeof(std::uint32_t), SUM = 3 * WORD;
+  begin_commands(commands_);
+  record_barrier(commands_);
+  vkCmdFillBuffer(commands_, state_.get(), DISPLAY_CUT * WORD, WORD, 0);
+  vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+  vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set_, 0, nullptr);
+  if (!how.is_seen && !how.moving) {
+    vkCmdFillBuffer(commands_, state_.get(), DISPLAY_SUM_REST * WORD, SUM, 0);
+    record_step(DISPLAY_REST, params);
+    rests_ = true;
+  } else if (!how.is_seen) {
+    record_step(DISPLAY_PLAIN, params);
+  } else {
+    if (rests_) {
+      vkCmdFillBuffer(commands_, state_.get(), DISPLAY_SUM_SEEN * WORD, SUM, 0);
+      record_step(DISPLAY_MEASURE, params);
+      record_step(DISPLAY_MATCH, params);
+      rests_ = false;
+    }
+    record_step(DISPLAY_SEEN, params);
+  }
+  check(vkEndCommandBuffer(commands_), "recording commands");
+}
+
+void Screen::record_step(std::uint32_t step, DisplayParams params) {
+  params.step = step;
+  vkCmdUpdateBuffer(commands_, params_.get(), 0, sizeof(params), &params);
+  record_barrier(commands_);
+  Dispatch dispatch;
+  dispatch.set_groups(step == DISPLAY_MATCH ? 1 : groups(params.width * params.height, GROUP_SIZE));
+  vkCmdDispatch(commands_, dispatch.groups_x, dispatch.groups_y, 1);
+  record_barrier(commands_);
+}
+
+void Screen::submit() {
+  const VkSemaphore semaphore = made_->get();
+  const std::uint64_t value = made_at_ + 1;
+  VkTimelineSemaphoreSubmitInfo timeline{};
+  timeline.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+  timeline.signalSemaphoreValueCount = 1;
+  timeline.pSignalSemaphoreValues = &value;
+  VkSubmitInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  info.pNext = &timeline;
+  info.commandBufferCount = 1;
+  info.pCommandBuffers = &commands_;
+  info.signalSemaphoreCount = 1;
+  info.pSignalSemaphores = &semaphore;
+  check(vulkan_.queue->submit(info, VK_NULL_HANDLE), "showing a picture");
+  made_at_ = value;
+}
+
+}  // namespace splatray

@@ -1,0 +1,72 @@
+/// Makes of a picture on a Vulkan device what a screen takes, without bringing it to the host.
+#pragma once
+#include <optional>
+#include <span>
+
+#include "app/library/shot/scene_on_device.h"
+#include "app/view/display/device_picture.h"
+#include "app/view/display/display_table.h"
+#include "engine/device/vulkan/command_queue.h"
+#include "engine/image/image.h"
+#include "engine/image/view.h"
+#include "shaders/display/display_layout.h"
+
+namespace splatray {
+
+/// How a picture is shown.
+struct ShownAs {
+  const DisplayTable& table;
+  const View& view;       ///< of the whole picture
+  bool moving = false;    ///< else it is one at rest, whose brightness is remembered
+  bool is_seen = false;   ///< of LOOK_SEEN, as MovingPicture has it
+  double eye_dome = 0.0;  ///< strength, as eye_dome has it
+};
+
+/// The device's side of DisplayTable and MovingPicture (display.comp.glsl). For one thread, that of the queue which traces.
+class Screen {
+ public:
+  /// The device must outlive it and its pictures.
+  explicit Screen(const VulkanDevice& vulkan);
+  /// Waits for the device.
+  ~Screen();
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  /// A picture that the device grew: within 1 of 255 of what DisplayTable and MovingPicture make of it. The device may still be at
+  /// it when it is handed out. Throws Error as check() does.
+  [[nodiscard]] SharedPicture show(const GrownPicture& grown, const ShownAs& how);
+  /// Likewise of one that the host has changed, which is brought to the device.
+  [[nodiscard]] SharedPicture show(const Image& image, const ShownAs& how);
+  /// Whether the picture shown last has pixels whose loops a driver has cut: Tracer::picture() says so.
+  [[nodiscard]] bool has_cut_loops();
+  /// Waits until the device has read what it was given: before that changes other than by work of its queue.
+  void wait() const;
+  /// Forgets how bright pictures at rest are: another scene is shown.
+  void forget();
+
+ private:
+  void make_set();
+  void bind(std::uint32_t binding, VkBuffer buffer) const;
+  void take_curve(const DisplayTable& table);
+  void record_step(std::uint32_t step, DisplayParams params);
+  void record(const DisplayParams& params, const ShownAs& how);
+  void submit();
+
+  const VulkanDevice& vulkan_;
+  CommandQueue transfers_;
+  Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
+  Handle<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
+  Handle<VkDescriptorPool, vkDestroyDescriptorPool> sets_;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  Handle<VkPipeline, vkDestroyPipeline> pipeline_;
+  Handle<VkCommandPool, vkDestroyCommandPool> pool_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VulkanBuffer params_, curves_, state_, means_;  ///< means_: of an image of the host
+  PictureRing ring_;
+  std::shared_ptr<const TimelineSemaphore> made_;
+  std::uint64_t made_at_ = 0;     ///< value of made_ when all that was submitted is done
+  std::optional<Display> curve_;  ///< that curves_ holds
+  bool rests_ = false;  ///< the last picture at rest has not yet given the gain of those of LOOK_SEEN
+};
+
+}  // namespace splatray
