@@ -8,16 +8,17 @@
 
 layout(local_size_x = GROUP_SIZE) in;
 
+layout(constant_id = DISPLAY_SPEC_STEP) const uint STEP = DISPLAY_PLAIN;
+layout(constant_id = DISPLAY_SPEC_TONE) const uint TONE = DISPLAY_TONE_TABLE;
+
 layout(std430, binding = DISPLAY_BIND_PARAMS) readonly buffer Params { DisplayParams params; };
 layout(std430, binding = DISPLAY_BIND_MEANS) readonly buffer Means { vec4 means[]; };
 layout(std430, binding = DISPLAY_BIND_BEFORE) readonly buffer Before { vec4 before[]; };
 layout(std430, binding = DISPLAY_BIND_CURVES) readonly buffer Curves { uint curves[]; };
 layout(std430, binding = DISPLAY_BIND_STATE) buffer State { uint state[]; };
-layout(std430, binding = DISPLAY_BIND_PIXELS) writeonly buffer Pixels { uint pixels[]; };
+layout(std430, binding = DISPLAY_BIND_PIXELS) buffer Pixels { uint pixels[]; };
 
 const float MOST_GAIN = 4.0f;  ///< and its inverse: beyond, the picture at rest shows something else
-
-shared uint group_sum, group_count;  ///< of the pixels of a group
 
 /// The mean of all samples.
 vec4 mean_at(uint i) {
@@ -41,9 +42,9 @@ uint packed(uvec3 bytes) { return bytes.x | bytes.y << 8u | bytes.z << 16u | 255
 
 /// Through exposure and tone curve.
 uvec3 displayed(vec3 radiance) {
-  if (params.tone == DISPLAY_TONE_TABLE) return bytes_of(0u, radiance);
+  if (TONE == DISPLAY_TONE_TABLE) return bytes_of(0u, radiance);
   vec3 color = tone_usable(params.factor * radiance);
-  return bytes_of(0u, params.tone == DISPLAY_TONE_AGX ? tone_agx(color) : tone_neutral(color));
+  return bytes_of(0u, TONE == DISPLAY_TONE_AGX ? tone_agx(color) : tone_neutral(color));
 }
 
 /// The shade of a pixel of LOOK_SEEN, whose fourth component is a distance.
@@ -62,18 +63,26 @@ float dome_at(uint i) {
 float brightness(vec3 linear) { return 0.2126f * linear.x + 0.7152f * linear.y + 0.0722f * linear.z; }
 float linear_of(uint byte) { return uintBitsToFloat(curves[DISPLAY_LINEAR + byte]); }
 
-/// Adds what a pixel shows to its group's.
-void add_brightness(float bright) {
-  atomicAdd(group_sum, uint(min(bright, 256.0f) * float(DISPLAY_BRIGHTNESS) + 0.5f));
-  atomicAdd(group_count, 1u);
-}
-
-/// Adds what a group shows to one of the sums.
-void add_group(uint sum) {
-  if (group_count == 0u) return;
-  uint low = atomicAdd(state[sum], group_sum);
-  if (low + group_sum < low) atomicAdd(state[sum + 1u], 1u);
-  atomicAdd(state[sum + 2u], group_count);
+/// Adds up how bright some pixels are that show something: those of a thread, DISPLAY_SUMMED at most.
+void add_brightness(uint first, uint stride, uint sum) {
+  uint units = 0u;
+  uint count = 0u;
+  for (uint i = first; i < params.width * params.height; i += stride) {
+    if (!(means[i].w > 0.0f)) continue;
+    float bright = 0.0f;
+    if (sum == DISPLAY_SUM_SEEN) {
+      bright = brightness(means[i].xyz * dome_at(i));
+    } else {
+      uint word = pixels[i];
+      bright = brightness(vec3(linear_of(word & 255u), linear_of(word >> 8u & 255u), linear_of(word >> 16u & 255u)));
+    }
+    units += uint(min(bright, 256.0f) * float(DISPLAY_BRIGHTNESS) + 0.5f);
+    ++count;
+  }
+  if (count == 0u) return;
+  uint low = atomicAdd(state[sum], units);
+  if (low + units < low) atomicAdd(state[sum + 1u], 1u);
+  atomicAdd(state[sum + 2u], count);
 }
 
 /// The mean brightness that a sum is of; 0 where no pixel shows anything.
@@ -90,37 +99,26 @@ void match_gain() {
   state[DISPLAY_GAIN] = floatBitsToUint(gain);
 }
 
-/// Shows or measures a pixel.
 void show(uint i) {
   vec4 mean = mean_at(i);
-  bool shows = mean.w > 0.0f;
-  if (params.step == DISPLAY_MEASURE) {
-    if (shows) add_brightness(brightness(mean.xyz * dome_at(i)));
-    return;
-  }
-  bool as_it_is = params.step == DISPLAY_SEEN && shows;
   uvec3 bytes = uvec3(0u);
-  if (as_it_is)
+  if (STEP == DISPLAY_SEEN && mean.w > 0.0f)
     bytes = bytes_of(DISPLAY_AS_IT_IS, uintBitsToFloat(state[DISPLAY_GAIN]) * (mean.xyz * dome_at(i)));
   else
     bytes = displayed(mean.xyz);
   pixels[i] = packed(bytes);
-  if (params.step == DISPLAY_REST && shows)
-    add_brightness(brightness(vec3(linear_of(bytes.x), linear_of(bytes.y), linear_of(bytes.z))));
 }
 
 void main() {
-  if (params.step == DISPLAY_MATCH) {
-    if (gl_GlobalInvocationID.x == 0u) match_gain();
-    return;
+  uint thread = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * GROUP_SIZE + gl_LocalInvocationIndex;
+  uint threads = gl_NumWorkGroups.x * gl_NumWorkGroups.y * GROUP_SIZE;
+  if (STEP == DISPLAY_MATCH) {
+    if (thread == 0u) match_gain();
+  } else if (STEP == DISPLAY_MEASURE_REST) {
+    add_brightness(thread, threads, DISPLAY_SUM_REST);
+  } else if (STEP == DISPLAY_MEASURE_SEEN) {
+    add_brightness(thread, threads, DISPLAY_SUM_SEEN);
+  } else if (thread < params.width * params.height) {
+    show(thread);
   }
-  if (gl_LocalInvocationIndex == 0u) group_sum = group_count = 0u;
-  barrier();
-  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  uint i = group * GROUP_SIZE + gl_LocalInvocationIndex;
-  if (i < params.width * params.height) show(i);
-  barrier();
-  bool sums = params.step == DISPLAY_REST || params.step == DISPLAY_MEASURE;
-  if (sums && gl_LocalInvocationIndex == 0u)
-    add_group(params.step == DISPLAY_REST ? DISPLAY_SUM_REST : DISPLAY_SUM_SEEN);
 }

@@ -7,26 +7,29 @@
 namespace splatray {
 #endif
 
-/// What a dispatch does. All but MATCH have a thread for each pixel.
-SPLATRAY_CONST DISPLAY_PLAIN = 0u;    ///< shows a picture
-SPLATRAY_CONST DISPLAY_REST = 1u;     ///< shows a picture at rest, and adds up how bright it is
-SPLATRAY_CONST DISPLAY_MEASURE = 2u;  ///< adds up how bright a picture of LOOK_SEEN is
-SPLATRAY_CONST DISPLAY_MATCH = 3u;    ///< one thread: finds the gain of pictures of LOOK_SEEN
-SPLATRAY_CONST DISPLAY_SEEN = 4u;     ///< shows one
+/// What a dispatch does.
+SPLATRAY_CONST DISPLAY_PLAIN = 0u;         ///< shows a picture; a thread for each pixel
+SPLATRAY_CONST DISPLAY_SEEN = 1u;          ///< shows one of LOOK_SEEN; a thread for each pixel
+SPLATRAY_CONST DISPLAY_MEASURE_REST = 2u;  ///< adds up how bright the picture shown is, one at rest
+SPLATRAY_CONST DISPLAY_MEASURE_SEEN = 3u;  ///< adds up how bright a picture of LOOK_SEEN is
+SPLATRAY_CONST DISPLAY_MATCH = 4u;         ///< one thread: finds the gain of pictures of LOOK_SEEN
+SPLATRAY_CONST DISPLAY_SUMMED = 128u;      ///< pixels that a thread measures: as many have sums of 32 bits
 
 /// Tone curves that mix channels; others are in the table of bytes alone.
 SPLATRAY_CONST DISPLAY_TONE_TABLE = 0u;
 SPLATRAY_CONST DISPLAY_TONE_NEUTRAL = 1u;
 SPLATRAY_CONST DISPLAY_TONE_AGX = 2u;
 
+/// Specialization constants: DISPLAY_PLAIN and its like, DISPLAY_TONE_*.
+SPLATRAY_CONST DISPLAY_SPEC_STEP = 0u;
+SPLATRAY_CONST DISPLAY_SPEC_TONE = 1u;
+
 struct DisplayParams {
   uint width;  ///< pixels
   uint height;
-  uint step;            ///< DISPLAY_PLAIN ...
   uint samples;         ///< in each pixel of `means`
   uint next_row;        ///< rows above it have one more
   uint samples_before;  ///< in each pixel of `before`, which is not read where they are none
-  uint tone;            ///< DISPLAY_TONE_*
   float factor;         ///< of radiance before a curve that mixes channels: 2^exposure
   float dome_exponent;  ///< eye_dome.glsl
   float per_world;      ///< eye_dome.glsl

@@ -53,11 +53,9 @@ DisplayParams params_of(const GrownPicture& grown, const ShownAs& how) {
   const DomeScale dome = dome_scale(how.view, how.eye_dome);
   return {.width = grown.width,
           .height = grown.height,
-          .step = DISPLAY_PLAIN,
           .samples = grown.samples,
           .next_row = grown.next_row,
           .samples_before = grown.samples_before,
-          .tone = tone_number(how.table.display().tone),
           .factor = static_cast<float>(std::exp2(how.table.display().exposure_ev)),
           .dome_exponent = dome.exponent,
           .per_world = dome.per_world};
@@ -76,7 +74,6 @@ Screen::Screen(const VulkanDevice& vulkan)
       ring_(vulkan, STORAGE, Residence::device),
       made_(make_timeline(vulkan)) {
   make_set();
-  pipeline_ = make_pipeline(vulkan, {}, DISPLAY, layout_.get(), VK_NULL_HANDLE);
   const std::vector<std::uint32_t> fixed = fixed_curves();
   transfers_.upload(curves_, std::as_bytes(std::span(fixed)), DISPLAY_AS_IT_IS * sizeof(std::uint32_t));
   forget();
@@ -200,36 +197,54 @@ bool Screen::has_cut_loops() {
 }
 
 void Screen::record(const DisplayParams& params, const ShownAs& how) {
+  const std::uint32_t pixels = params.width * params.height;
   constexpr VkDeviceSize WORD = sizeof(std::uint32_t), SUM = 3 * WORD;
   begin_commands(commands_);
   record_barrier(commands_);
   vkCmdFillBuffer(commands_, state_.get(), DISPLAY_CUT * WORD, WORD, 0);
-  vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+  vkCmdUpdateBuffer(commands_, params_.get(), 0, sizeof(params), &params);
   vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set_, 0, nullptr);
   if (!how.is_seen && !how.moving) {
     vkCmdFillBuffer(commands_, state_.get(), DISPLAY_SUM_REST * WORD, SUM, 0);
-    record_step(DISPLAY_REST, params);
+    record_step(DISPLAY_PLAIN, pixels, how.table);
+    record_step(DISPLAY_MEASURE_REST, pixels, how.table);
     rests_ = true;
   } else if (!how.is_seen) {
-    record_step(DISPLAY_PLAIN, params);
+    record_step(DISPLAY_PLAIN, pixels, how.table);
   } else {
     if (rests_) {
       vkCmdFillBuffer(commands_, state_.get(), DISPLAY_SUM_SEEN * WORD, SUM, 0);
-      record_step(DISPLAY_MEASURE, params);
-      record_step(DISPLAY_MATCH, params);
+      record_step(DISPLAY_MEASURE_SEEN, pixels, how.table);
+      record_step(DISPLAY_MATCH, pixels, how.table);
       rests_ = false;
     }
-    record_step(DISPLAY_SEEN, params);
+    record_step(DISPLAY_SEEN, pixels, how.table);
   }
   check(vkEndCommandBuffer(commands_), "recording commands");
 }
 
-void Screen::record_step(std::uint32_t step, DisplayParams params) {
-  params.step = step;
-  vkCmdUpdateBuffer(commands_, params_.get(), 0, sizeof(params), &params);
-  record_barrier(commands_);
+VkPipeline Screen::program(std::uint32_t step, std::uint32_t tone) {
+  const bool tones = step == DISPLAY_PLAIN || step == DISPLAY_SEEN;
+  const std::pair key(step, tones ? tone : DISPLAY_TONE_TABLE);
+  auto found = programs_.find(key);
+  if (found == programs_.end()) {
+    PipelineKey constants;
+    constants.constants[DISPLAY_SPEC_STEP] = key.first;
+    constants.constants[DISPLAY_SPEC_TONE] = key.second;
+    found = programs_.emplace(key, make_pipeline(vulkan_, constants, DISPLAY, layout_.get(), VK_NULL_HANDLE))
+                .first;
+  }
+  return found->second.get();
+}
+
+void Screen::record_step(std::uint32_t step, std::uint32_t pixels, const DisplayTable& table) {
+  const bool shows = step == DISPLAY_PLAIN || step == DISPLAY_SEEN;
+  const std::uint32_t threads = shows ? pixels : groups(pixels, DISPLAY_SUMMED);
   Dispatch dispatch;
-  dispatch.set_groups(step == DISPLAY_MATCH ? 1 : groups(params.width * params.height, GROUP_SIZE));
+  dispatch.set_groups(step == DISPLAY_MATCH ? 1 : groups(threads, GROUP_SIZE));
+  record_barrier(commands_);
+  vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
+                    program(step, tone_number(table.display().tone)));
   vkCmdDispatch(commands_, dispatch.groups_x, dispatch.groups_y, 1);
   record_barrier(commands_);
 }

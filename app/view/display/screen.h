@@ -1,7 +1,9 @@
 /// Makes of a picture on a Vulkan device what a screen takes, without bringing it to the host.
 #pragma once
+#include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "app/library/shot/scene_on_device.h"
 #include "app/view/display/device_picture.h"
@@ -48,7 +50,9 @@ class Screen {
   void make_set();
   void bind(std::uint32_t binding, VkBuffer buffer) const;
   void take_curve(const DisplayTable& table);
-  void record_step(std::uint32_t step, DisplayParams params);
+  /// The program of a step, DISPLAY_PLAIN and its like, and of a tone curve, DISPLAY_TONE_*; built when it is the first such.
+  [[nodiscard]] VkPipeline program(std::uint32_t step, std::uint32_t tone);
+  void record_step(std::uint32_t step, std::uint32_t pixels, const DisplayTable& table);
   void record(const DisplayParams& params, const ShownAs& how);
   void submit();
 
@@ -58,7 +62,7 @@ class Screen {
   Handle<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> sets_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
-  Handle<VkPipeline, vkDestroyPipeline> pipeline_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Handle<VkPipeline, vkDestroyPipeline>> programs_;
   Handle<VkCommandPool, vkDestroyCommandPool> pool_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VulkanBuffer params_, curves_, state_, means_;  ///< means_: of an image of the host
