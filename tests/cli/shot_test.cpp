@@ -5,10 +5,12 @@
 #include "app/library/request/command_line.h"
 #include "app/library/request/fields.h"
 #include "app/library/shot/lights.h"
+#include "app/library/shot/picture_lights.h"
 #include "app/library/shot/resolve.h"
 #include "engine/base/error.h"
 #include "engine/base/srgb.h"
 #include "engine/scene/scene_splat.h"
+#include "tests/gpu/small_scene.h"
 #include "tests/host/scenes.h"
 
 namespace splatray {
@@ -301,6 +303,30 @@ TEST(Lights, RectanglesArePointsInThePapersLookAlone) {
   EXPECT_EQ(paper[0].kind, LIGHT_POINT);
   EXPECT_GT(summed_irradiance(scene, lit), 0.0);
   EXPECT_NEAR(summed_irradiance(scene, paper) / summed_irradiance(scene, lit), 1.0, 1e-6);
+}
+
+using PreviewTest = DeviceTest;
+
+/// Building one takes longer than tracing most pictures.
+TEST_F(PreviewTest, IsTracedByThePicturesOwnProgram) {
+  const Scene scene = disc_scene();
+  SceneOnDevice shown(device);
+  shown.open(scene);
+  shown.show_environment("white");
+  Shot shot;
+  shot.view = disc_view(16, 12);
+  shot.settings = plain_settings();
+  shot.settings.look = LOOK_LIT;
+  shot.request.look.lights.emplace();
+  shot.request.output.denoise = true;
+  EXPECT_NE(preview_exposure_ev(shot, shown, shot.view.camera), 0.0);
+  const std::uint32_t built = shown.tracer().pipelines_built();
+  EXPECT_EQ(built, 1U);
+  Settings traced = shot.traced_settings();
+  ASSERT_TRUE(traced.albedo);
+  traced.aov = false;
+  (void)shown.tracer().render(lit_look(shot, shown, shot.view.camera).look, shot.view, traced);
+  EXPECT_EQ(shown.tracer().pipelines_built(), built);
 }
 
 }  // namespace

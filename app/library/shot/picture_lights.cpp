@@ -46,6 +46,7 @@ double look_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& ca
   settings.samples = SAMPLES;
   settings.sample_offset = 0;
   settings.aov = settings.estimate_error = settings.counters = false;
+  settings.albedo = shot.traced_settings().albedo;  // by the picture's own program: another takes as long to build
   return automatic_exposure_ev(shown.tracer().render(look, view, settings));
 }
 

@@ -50,7 +50,8 @@ std::optional<SceneLight> LiveScene::light_at_camera(const Document& document, g
 
 double LiveScene::exposure_ev(const Document& document, glm::uvec2 size_px) {
   match(document, ViewMode::shaded);
-  const Shot shot = resolve(request_of(document, size_px.x, size_px.y), *scene_, document.loaded->facts);
+  Shot shot = resolve(request_of(document, size_px.x, size_px.y), *scene_, document.loaded->facts);
+  shot.request.output.denoise = false;  // by the program of the picture that grows, which has no base colours
   return preview_exposure_ev(shot, shown_, shot.view.camera);
 }
 
