@@ -12,7 +12,8 @@ namespace {
 TEST_F(ViewSession, OneDeviceTracesAndShows) {
   const std::vector<std::string> options = {first, "--device=llvmpipe", "--look=paper", "--eye=0.9,1.3,2.2",
                                             "--fov=35"};
-  start(options, {"SPLATRAY_VALIDATION=1"});
+  start(options, {"SPLATRAY_VALIDATION=1",
+                  "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"});
   const unsigned long window = desktop.wait_for_window("first.ply");
   ASSERT_NE(window, 0U);
   desktop.xdotool({"key", "Tab"});  // no panels: the picture fills the window
