@@ -113,6 +113,9 @@ class Queue {
   /// Copies from the buffer's start.
   virtual void download(const Buffer& buffer, std::span<std::byte> bytes) = 0;
   virtual Ran run(const Dispatch& dispatch, const Bindings& bindings) = 0;
+  /// Begins to build a dispatch's program on a thread of its own, so that run() waits for less of it, on devices that build them.
+  virtual void prepare([[maybe_unused]] const Dispatch& dispatch, [[maybe_unused]] const Bindings& bindings) {
+  }
   /// Programs compiled since construction.
   [[nodiscard]] virtual std::uint32_t programs_built() const = 0;
 

@@ -66,6 +66,8 @@ Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Se
     runner.queue->reserve(runner.aov, most_pixels * sizeof(AovPixel));
   }
   runner.bind(*runner.accumulation);
+  if (settings.aov)
+    runner.queue->prepare(picture.aov_dispatch, runner.scene.bindings());  // beside the picture's
   return picture;
 }
 
@@ -144,6 +146,15 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
     impl.stats.error = relative_error(image);
   }
   return std::move(image);
+}
+
+void Tracer::prepare(const Look& look, const View& view, const Settings& settings) {
+  Runner& runner = impl_->runner;
+  runner.require_scene("prepare()");
+  if (runner.profile.slow) return;
+  runner.scene.show(look);
+  runner.queue->prepare(runner.picture_dispatch(view, settings), runner.scene.bindings());
+  if (settings.aov) runner.queue->prepare(runner.aov_dispatch(view, settings), runner.scene.bindings());
 }
 
 std::vector<AovPixel> Tracer::trace_aov(const Look& look, const View& view, const Settings& settings,

@@ -88,6 +88,9 @@ class Tracer {
   /// their difference.
   [[nodiscard]] Image render_until(const Look& look, const View& view, const Settings& settings,
                                    const Goal& goal, const Progress& progress = {});
+  /// Begins to build the programs of a picture on other threads, of its AOVs too where Settings::aov is set, but where such threads are
+  /// what traces; render(), begin() and trace_aov() of it then wait for less.
+  void prepare(const Look& look, const View& view, const Settings& settings);
   /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit what render()
   /// gives, whatever other calls than upload() happened between. Settings::aov and View::window are not looked at.
   /// Throws Error (out_of_memory) for more pixels than the device lets a buffer hold.

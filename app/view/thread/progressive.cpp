@@ -93,6 +93,9 @@ SharedFrame Progressive::trace_coarse() {
   }
   const Clock::time_point start = Clock::now();
   if (document_.mode == ViewMode::shaded) {
+    Settings fine = settings();
+    fine.aov = denoises();
+    live_.tracer().prepare(live_.look(), frame.view, fine);  // what follows, while this is built and seen
     begin(frame.view, coarse);
     while (!live_.tracer().advance(std::numeric_limits<double>::infinity())) {
     }

@@ -42,14 +42,14 @@ bool finds_remainders(const VulkanDevice& vulkan, CommandQueue& commands, const 
   VulkanBuffer counters(vulkan, COUNTER_COUNT * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   bindings.bind(BIND_FRAME, frame_buffer, 0);
   bindings.bind(BIND_COUNTERS, counters, 0);
-  const auto pipeline = make_pipeline(vulkan, {}, FUSED, bindings.layout(), VK_NULL_HANDLE);
+  const auto pipeline = make_pipeline(vulkan, {}, FUSED, bindings.layout()->get(), VK_NULL_HANDLE);
   std::array<std::uint32_t, COUNTER_COUNT> counted{};
   commands.upload(frame_buffer, std::as_bytes(std::span(&frame, 1)));
   commands.upload(counters, std::as_bytes(std::span(counted)));
   commands.run([&](VkCommandBuffer recorded) {
     const VkDescriptorSet set = bindings.set();
     vkCmdBindPipeline(recorded, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-    vkCmdBindDescriptorSets(recorded, VK_PIPELINE_BIND_POINT_COMPUTE, bindings.layout(), 0, 1, &set, 0,
+    vkCmdBindDescriptorSets(recorded, VK_PIPELINE_BIND_POINT_COMPUTE, bindings.layout()->get(), 0, 1, &set, 0,
                             nullptr);
     vkCmdDispatch(recorded, 1, 1, 1);
   });

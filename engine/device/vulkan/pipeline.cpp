@@ -55,7 +55,8 @@ void VulkanBindings::create_layout() {
   layout_info.pSetLayouts = &set_layout;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   check(vkCreatePipelineLayout(vulkan_.device, &layout_info, nullptr, &layout), "making a pipeline layout");
-  pipeline_layout_ = {vulkan_.device, layout};
+  pipeline_layout_ =
+      std::make_shared<const Handle<VkPipelineLayout, vkDestroyPipelineLayout>>(vulkan_.device, layout);
 }
 
 void VulkanBindings::create_set() {
@@ -131,11 +132,21 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const VulkanDevice& vulkan, 
   return {vulkan.device, pipeline};
 }
 
-VkPipeline PipelineCache::get(const PipelineKey& key, VkPipelineLayout layout) {
+PipelineCache::Pipeline PipelineCache::build(const PipelineKey& key, const SharedLayout& layout) const {
+  const auto code = program_code(key.program, is_paged(key.constants));
+  return make_pipeline(vulkan_, key, code, layout->get(), store_.get());
+}
+
+void PipelineCache::prepare(const PipelineKey& key, const SharedLayout& layout) {
+  if (pipelines_.contains(key) || begun_.contains(key)) return;
+  begun_.emplace(key, std::async(std::launch::async, [this, key, layout] { return build(key, layout); }));
+}
+
+VkPipeline PipelineCache::get(const PipelineKey& key, const SharedLayout& layout) {
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const auto code = program_code(key.program, is_paged(key.constants));
-    found = pipelines_.emplace(key, make_pipeline(vulkan_, key, code, layout, store_.get())).first;
+    auto begun = begun_.extract(key);
+    found = pipelines_.emplace(key, begun ? begun.mapped().get() : build(key, layout)).first;
   }
   return found->second.get();
 }

@@ -3,7 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <map>
+#include <memory>
 #include <span>
 
 #include "engine/device/queue.h"
@@ -11,6 +13,9 @@
 #include "engine/device/vulkan/pipeline_store.h"
 
 namespace splatray {
+
+/// Shared with the threads that build pipelines of it.
+using SharedLayout = std::shared_ptr<const Handle<VkPipelineLayout, vkDestroyPipelineLayout>>;
 
 /// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout.
 class VulkanBindings final : public Bindings {
@@ -23,7 +28,7 @@ class VulkanBindings final : public Bindings {
   void bind(const DeviceTexture& texture) override;
 
   [[nodiscard]] VkDescriptorSet set() const { return set_; }
-  [[nodiscard]] VkPipelineLayout layout() const { return pipeline_layout_.get(); }
+  [[nodiscard]] const SharedLayout& layout() const { return pipeline_layout_; }
 
  private:
   void create_layout();
@@ -32,7 +37,7 @@ class VulkanBindings final : public Bindings {
   const VulkanDevice& vulkan_;
   const Paging paging_;
   Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
-  Handle<VkPipelineLayout, vkDestroyPipelineLayout> pipeline_layout_;
+  SharedLayout pipeline_layout_;
   Handle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
@@ -50,22 +55,31 @@ struct PipelineKey {
     const VulkanDevice& vulkan, const PipelineKey& key, std::span<const std::uint32_t> code,
     VkPipelineLayout layout, VkPipelineCache cache, VkPipelineCreateFlags flags = 0);
 
-/// Builds each pipeline once. The device must outlive it.
+/// Builds each pipeline once, several at a time where they are prepared. For one thread. The device must outlive it.
 class PipelineCache {
  public:
   /// `folder`: where pipelines are kept between runs (pipeline_store.h); empty = nowhere.
   PipelineCache(const VulkanDevice& vulkan, const std::filesystem::path& folder)
       : vulkan_(vulkan), store_(vulkan, folder) {}
 
-  /// The pipeline of the key, with that layout; built when it is the first such.
-  [[nodiscard]] VkPipeline get(const PipelineKey& key, VkPipelineLayout layout);
-  /// Pipelines built since construction.
-  [[nodiscard]] std::uint32_t built() const { return static_cast<std::uint32_t>(pipelines_.size()); }
+  /// The pipeline of the key, with that layout; built when it is the first such. Throws Error as check() does.
+  [[nodiscard]] VkPipeline get(const PipelineKey& key, const SharedLayout& layout);
+  /// Begins to build it on a thread of its own.
+  void prepare(const PipelineKey& key, const SharedLayout& layout);
+  /// Pipelines built, or begun, since construction.
+  [[nodiscard]] std::uint32_t built() const {
+    return static_cast<std::uint32_t>(pipelines_.size() + begun_.size());
+  }
 
  private:
+  using Pipeline = Handle<VkPipeline, vkDestroyPipeline>;
+
+  [[nodiscard]] Pipeline build(const PipelineKey& key, const SharedLayout& layout) const;
+
   const VulkanDevice& vulkan_;
   PipelineStore store_;
-  std::map<PipelineKey, Handle<VkPipeline, vkDestroyPipeline>> pipelines_;
+  std::map<PipelineKey, Pipeline> pipelines_;
+  std::map<PipelineKey, std::future<Pipeline>> begun_;  ///< on other threads, of which each is waited for
 };
 
 }  // namespace splatray

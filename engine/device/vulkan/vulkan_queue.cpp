@@ -38,6 +38,11 @@ void VulkanQueue::download(const Buffer& buffer, std::span<std::byte> bytes) {
   commands_.download(static_cast<const VulkanBuffer&>(buffer), bytes);
 }
 
+void VulkanQueue::prepare(const Dispatch& dispatch, const Bindings& bindings) {
+  pipelines_.prepare({dispatch.program, dispatch.constants},
+                     static_cast<const VulkanBindings&>(bindings).layout());
+}
+
 Ran VulkanQueue::run(const Dispatch& dispatch, const Bindings& bindings) {
   const auto& bound = static_cast<const VulkanBindings&>(bindings);
   const bool reads_counters = dispatch.counts_work();
@@ -49,7 +54,8 @@ Ran VulkanQueue::run(const Dispatch& dispatch, const Bindings& bindings) {
     record_barrier(commands);
     const VkDescriptorSet set = bound.set();
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bound.layout(), 0, 1, &set, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, bound.layout()->get(), 0, 1, &set, 0,
+                            nullptr);
     vkCmdDispatch(commands, dispatch.groups_x, dispatch.groups_y, 1);
   });
   if (!reads_counters) return ran;

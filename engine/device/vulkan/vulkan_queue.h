@@ -18,6 +18,7 @@ class VulkanQueue final : public Queue {
   void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;
   void download(const Buffer& buffer, std::span<std::byte> bytes) override;
   Ran run(const Dispatch& dispatch, const Bindings& bindings) override;
+  void prepare(const Dispatch& dispatch, const Bindings& bindings) override;
   [[nodiscard]] std::uint32_t programs_built() const override { return pipelines_.built(); }
 
  private:
