@@ -203,5 +203,22 @@ TEST(DeviceChoice, MissingValidationLayerNamesItsPackage) {
   EXPECT_NE(std::string(error.what()).find("vulkan-validationlayers"), std::string::npos) << error.what();
 }
 
+TEST(DeviceNeeds, WhatIsOptionalIsLeftOutWhereADeviceHasItNot) {
+  DeviceNeeds needs;
+  needs.refusal = [](VkInstance, VkPhysicalDevice) { return std::string("no window"); };
+  needs.second_queue = true;
+  EXPECT_THROW(VulkanDevice("", false, needs), Error);
+  needs.optional = true;
+  const VulkanDevice refused("", false, needs);
+  EXPECT_FALSE(refused.meets_needs());
+  EXPECT_EQ(refused.second_queue().get(), refused.queue->get());
+  needs.refusal = {};
+  needs.device_extensions = {"VK_SPLATRAY_nothing"};
+  const VulkanDevice without("", false, needs);
+  EXPECT_FALSE(without.meets_needs());
+  EXPECT_EQ(without.second_queue().wait(), VK_SUCCESS);
+  EXPECT_TRUE(VulkanDevice().meets_needs());
+}
+
 }  // namespace
 }  // namespace splatray
