@@ -19,6 +19,7 @@
 #include "engine/scene/clip.h"
 #include "engine/scene/scene_check.h"
 #include "engine/scene/scene_splat.h"
+#include "engine/scene/wide/wide_tree.h"
 #include "preprocess/base/append.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
@@ -257,8 +258,7 @@ std::vector<Column> take_columns(std::vector<Cloud>& clouds) {
 
 /// Puts the points' columns beside the splats that were made of them.
 void place_columns(std::vector<Column> columns, const std::vector<std::uint32_t>& point, Scene& scene) {
-  for (Column& column : columns)
-    std::visit([&](auto& values) { values = gather(values, point); }, column.values);
+  for (Column& column : columns) edit_values(column, [&](auto& values) { values = gather(values, point); });
   scene.columns = std::move(columns);
 }
 
@@ -302,15 +302,16 @@ ListedOctree build_lists(const SplatList& splats, const BuildParams& params, con
 /// Writes the scene's pools: leaf words get their Begin-End index.
 void fill_pools(ListedOctree built, SplatList splats, Scene& scene, BuildStats& stats) {
   auto& [tree, lists] = built;
-  scene.node_pool = std::move(tree.node_pool);
-  scene.begin_end = {0};
+  std::vector<std::uint32_t> nodes = std::move(tree.node_pool), begin_end = {0};
   for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
     const bool filled = lists.begin[i] < lists.begin[i + 1];
-    const auto address = static_cast<std::uint32_t>(filled ? scene.begin_end.size() - 1 : 0);
-    scene.node_pool[tree.leaves[i].node] = (filled ? NODE_FILLED : NODE_EMPTY) << NODE_TAG_SHIFT | address;
-    if (filled) scene.begin_end.push_back(lists.begin[i + 1]);
+    const auto address = static_cast<std::uint32_t>(filled ? begin_end.size() - 1 : 0);
+    nodes[tree.leaves[i].node] = (filled ? NODE_FILLED : NODE_EMPTY) << NODE_TAG_SHIFT | address;
+    if (filled) begin_end.push_back(lists.begin[i + 1]);
     stats.depth = std::max<std::uint64_t>(stats.depth, tree.leaves[i].level);
   }
+  scene.node_pool = std::move(nodes);
+  scene.begin_end = std::move(begin_end);
   scene.reference_pool = std::move(lists.splat);
   scene.data_pool = std::move(splats.words);
   scene.color_pool = std::move(splats.color);
@@ -388,13 +389,17 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
   fill_pools(std::move(built), std::move(splats), scene, stats);
   {
     const AddedTime slab_watch(stats.slabs_ms);
-    require_stage_memory("slabs", scene.begin_end.size(), sizeof(OctreeCell) + sizeof(scene.slab_pool[0]));
+    require_stage_memory("slabs", scene.begin_end.size(), sizeof(OctreeCell) + sizeof(std::uint32_t));
     add_slabs(scene, {"slabs", progress});
   }
   {
     const AddedTime empty_watch(stats.empty_ms);
-    require_stage_memory("empty space", scene.node_pool.size(), sizeof(scene.node_pool[0]));
+    require_stage_memory("empty space", scene.node_pool.size(), sizeof(std::uint32_t));
     grow_empty_leaves(scene, {"empty space", progress});
+  }
+  {
+    const AddedTime octree_watch(stats.octree_ms);
+    add_wide_tree(scene, threads);
   }
   count_result(scene, stats);
   return scene;

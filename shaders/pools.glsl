@@ -1,6 +1,6 @@
 // The pools that rays read, a row each, and nowhere else: numbers of bindings (layout.h), declarations and readers on devices
 // (scene/bindings.glsl), on the host (engine/cpu/bindings_as_cpp.h) and in tests (tests/trace/twin.cpp), sections of the file,
-// checks, uploads, JSON and panels (engine/scene/pool_table.h) are made of these rows. A new row comes last of its kind in a
+// checks, uploads, JSON and panels (engine/scene/pool/pool_table.h) are made of these rows. A new row comes last of its kind in a
 // scene's.
 //   SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT): a member of Scene of this name, in every scene
 //   SPLATRAY_OPTIONAL_POOL(..., HAS, bit, ABOUT): that a scene may be without; shaders ask whether the pipeline HAS it, FEATURE_HAS

@@ -86,7 +86,7 @@ const std::map<std::uint32_t, AsprsClass>& asprs_classes() {
 
 /// Whether a column is the build's own: a file may have one of that name, too.
 bool is_kinds(const Column& column) {
-  return column.name == COLUMN_KIND && std::holds_alternative<std::vector<std::uint8_t>>(column.values);
+  return column.name == COLUMN_KIND && std::holds_alternative<Pool<std::uint8_t>>(column.values);
 }
 
 bool has_categories(const Column& column) { return is_category(column.name) || is_kinds(column); }
@@ -260,10 +260,11 @@ void hide(Scene& scene, std::string_view name, const std::vector<std::uint32_t>&
   if (column == nullptr)
     throw Error(ExitCode::usage,
                 "--hide-" + std::string(name) + ": the scene's points have no " + std::string(name));
+  std::vector<uvec4>& splats = scene.data_pool.edit();
   for (std::size_t i = 0; i < column->size(); ++i) {
     const auto value = static_cast<std::uint32_t>(column->number(i));
     if (std::find(hidden.begin(), hidden.end(), value) == hidden.end()) continue;
-    scene.data_pool[i].w &= OBJECT_MASK;  // a stored radius of 0 is the least: sqrt(2) lattice units
+    splats[i].w &= OBJECT_MASK;  // a stored radius of 0 is the least: sqrt(2) lattice units
   }
 }
 

@@ -1,5 +1,6 @@
 /// Work shared among all cores.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -8,6 +9,11 @@
 #include <vector>
 
 namespace splatray {
+
+/// The threads that `asked` means: 0 = one a core.
+[[nodiscard]] inline unsigned host_threads(unsigned asked) {
+  return asked > 0 ? asked : std::max(std::thread::hardware_concurrency(), 1U);
+}
 
 /// Calls work(i) once for each 0 <= i < count, in any order, on as many threads as there are cores. What a call throws first is thrown
 /// again when all threads have ended; calls that have not begun by then are left out.

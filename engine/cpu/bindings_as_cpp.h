@@ -57,19 +57,8 @@ constexpr Bound<RayQuery, BIND_RAYS> rays;
 constexpr Bound<RayHit, BIND_HITS> hits;
 #endif
 
-/// An element of a pool; the data pool lies in the wide tree's leaves.
-template <class Value, uint BINDING>
-Value pool_element(uint index) {
-  if constexpr (BINDING == BIND_DATA_POOL) {
-    const std::array<WideWords, 4>& words = bound->tree.leaves[index / WIDE].words;
-    const uint lane = index % WIDE;
-    return {words[0][lane], words[1][lane], words[2][lane], words[3][lane]};
-  } else {
-    return Bound<Value, BINDING>()[index];
-  }
-}
 #define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
-  Value reader(uint index) { return pool_element<Value, BIND_##NAME>(index); }
+  Value reader(uint index) { return Bound<Value, BIND_##NAME>()[index]; }
 #include "pools.glsl"
 
 float medium_at(uint bit) { return frame.media[bit >> 2U][static_cast<int>(bit & 3U)]; }
@@ -79,8 +68,8 @@ uint region_kept() { return frame.region_kept; }
 uint region_dropped() { return frame.region_dropped; }
 bool region_light() { return frame.region_light != 0U; }
 vec3 absorption_at(uint bit) { return vec3(frame.absorption[bit]); }
-uint splat_at(uint place) { return REFERENCES ? reference_word(place) : place; }
-Material material_at(uint object) { return materials[object]; }
+uint splat_at(uint place) { return min(REFERENCES ? reference_word(place) : place, bound->last_splat); }
+Material material_at(uint object) { return materials[min(object, bound->last_material)]; }
 Light light_at(uint index) { return lights[index]; }
 vec3 color_at(uint index) { return unpack_color(color_word(index)); }
 #ifdef LIT

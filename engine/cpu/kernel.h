@@ -19,8 +19,10 @@ struct KernelWork {
   FrameParams frame{};
   std::array<std::byte*, BINDINGS> bound{};  ///< arrays in host memory, by BIND_*; pools in one page
   WideView tree;                             ///< over the splats
-  WideFunctions functions{};                 ///< of this CPU
-  std::uint32_t environment_width = 1;       ///< texels, vec4, at BIND_ENVIRONMENT
+  /// Where arrays end: a file that is traced where it is mapped may be changed by someone, and is refused after that.
+  std::uint32_t last_splat = 0, last_material = 0;
+  WideFunctions functions{};            ///< of this CPU
+  std::uint32_t environment_width = 1;  ///< texels, vec4, at BIND_ENVIRONMENT
   std::uint32_t environment_height = 1;
 };
 

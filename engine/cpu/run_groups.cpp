@@ -6,11 +6,9 @@
 #include <thread>
 #include <vector>
 
-namespace splatray {
+#include "engine/base/all_cores.h"
 
-unsigned host_threads(unsigned asked) {
-  return asked > 0 ? asked : std::max(std::thread::hardware_concurrency(), 1U);
-}
+namespace splatray {
 
 void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count, unsigned threads,
                 std::array<std::uint64_t, COUNTER_COUNT>& counts) {

@@ -7,9 +7,6 @@
 
 namespace splatray {
 
-/// The threads that `asked` means: 0 = one a core.
-[[nodiscard]] unsigned host_threads(unsigned asked);
-
 /// Runs groups 0 .. count - 1 on `threads` threads, 0 = one a core, each group on one, and adds what they count to `counts`.
 void run_groups(Kernel kernel, const KernelWork& work, std::uint32_t count, unsigned threads,
                 std::array<std::uint64_t, COUNTER_COUNT>& counts);

@@ -86,8 +86,8 @@ void visit_hits(const Ray& ray, float t_in, float t_end, bool by_tile, Tally& ta
   const WideView& tree = bound->tree;
   WideWalk walk;
   set_ray(ray, t_in, t_end, walk);
-  walk.stack[0] = {walk.t_min, tree.levels, 0};
-  walk.boxes_met = tree.levels > 0 ? 1 : 0;
+  walk.stack[0] = {walk.t_min, tree.levels.levels, 0};
+  walk.boxes_met = tree.levels.levels > 0 ? 1 : 0;
   WideCursor cursor{};
   if (by_tile) cursor = cursor_of(ray, *tile_now);
   while (uint met = by_tile ? bound->functions.step_tile(tree, *tile_now, cursor, walk)

@@ -14,6 +14,11 @@ class PagedBuffer {
   /// As Queue::make_buffer; `page_bytes` is a whole number of elements.
   PagedBuffer(Queue& queue, std::uint64_t bytes, std::uint64_t page_bytes);
 
+  /// One page, of a buffer that is there.
+  explicit PagedBuffer(std::unique_ptr<Buffer> page) : page_bytes_(UINT64_MAX) {
+    pages_.push_back(std::move(page));
+  }
+
   /// As Queue::upload.
   void upload(Queue& queue, std::span<const std::byte> bytes, std::uint64_t begin = 0);
 

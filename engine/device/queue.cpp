@@ -15,11 +15,6 @@ void Bindings::bind(std::uint32_t binding, const PagedBuffer& buffer) {
     bind(binding, *buffer.pages()[page], page);
 }
 
-std::unique_ptr<SplatTree> Queue::make_tree(std::span<const uvec4>, std::vector<std::uint32_t>& order) {
-  order.clear();
-  return nullptr;
-}
-
 void Queue::reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes) {
   if (!buffer || buffer->size() < bytes) buffer = make_buffer(bytes);
 }

@@ -39,16 +39,6 @@ class DeviceTexture {
   [[nodiscard]] virtual std::uint64_t size() const = 0;  ///< bytes of its texels
 };
 
-/// A device's own tree over splats, which its programs walk in place of the octree.
-class SplatTree {
- public:
-  SplatTree() = default;
-  virtual ~SplatTree() = default;
-  SplatTree(const SplatTree&) = delete;
-  SplatTree& operator=(const SplatTree&) = delete;
-  [[nodiscard]] virtual std::uint64_t bytes() const = 0;
-};
-
 class PagedBuffer;
 
 /// In how many buffers each pool is.
@@ -74,8 +64,8 @@ class Bindings {
   virtual void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page = 0) = 0;
   /// Points the environment's binding to a texture.
   virtual void bind(const DeviceTexture& texture) = 0;
-  /// Has programs walk a tree. Of a device that makes trees.
-  virtual void bind([[maybe_unused]] const SplatTree& tree) {}
+  /// Has programs walk the wide tree of a scene with so many splats. For queues that walk it.
+  virtual void bind_wide_tree([[maybe_unused]] const Buffer& nodes, [[maybe_unused]] std::uint64_t splats) {}
   /// Points a pool's binding to all of its pages.
   void bind(std::uint32_t binding, const PagedBuffer& buffer);
 };
@@ -103,11 +93,14 @@ class Queue {
   /// The texture of an environment that has texels, at most DeviceLimits::texture_size across and down.
   [[nodiscard]] virtual std::unique_ptr<DeviceTexture> make_texture(const Environment& environment) = 0;
   [[nodiscard]] virtual std::unique_ptr<Bindings> make_bindings(const Paging& paging) = 0;
-  /// Makes the tree over a data pool's splats, if the device has one of its own, and sets `order` to their indices in the order
-  /// that the tree has them in, as what lies beside the data pool must then lie too. Null and no order: programs walk the
-  /// octree.
-  [[nodiscard]] virtual std::unique_ptr<SplatTree> make_tree(std::span<const uvec4> splats,
-                                                             std::vector<std::uint32_t>& order);
+  /// Whether programs walk a scene's wide tree in place of the octree.
+  [[nodiscard]] virtual bool walks_wide_tree() const { return false; }
+  /// The bytes as a buffer that programs only read, without a copy of them: they stay as long as `keeper` does. Null where a buffer has
+  /// memory of its own.
+  [[nodiscard]] virtual std::unique_ptr<Buffer> lend([[maybe_unused]] std::span<const std::byte> bytes,
+                                                     [[maybe_unused]] std::shared_ptr<const void> keeper) {
+    return nullptr;
+  }
   /// Copies to the buffer's bytes from `begin` on; at most to its end.
   virtual void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin = 0) = 0;
   /// Copies from the buffer's start.

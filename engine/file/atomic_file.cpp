@@ -19,6 +19,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/interrupt.h"
+#include "engine/file/file_mapping.h"
 
 namespace splatray {
 namespace {
@@ -176,6 +177,7 @@ void AtomicFile::write(const void* bytes, std::uint64_t size) {
 }
 
 void AtomicFile::commit() {
+  require_whole_mappings();
   // Without fsync a name may outlive a power failure that its bytes do not; and file systems over a network may report a full
   // disk only here or in close.
   while (fsync(descriptor_) != 0)

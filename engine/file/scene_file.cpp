@@ -15,14 +15,17 @@
 #include "engine/file/scene_records.h"
 #include "engine/file/section_writer.h"
 #include "engine/scene/clip.h"
-#include "engine/scene/pool_table.h"
+#include "engine/scene/pool/pool_table.h"
 #include "engine/scene/scene_check.h"
+#include "engine/scene/wide/wide_tree.h"
 
 namespace splatray {
 
 using namespace scene_file;
 
 namespace {
+
+const char* const WIDE_NODES = "wide_nodes";
 
 std::string column_section(std::size_t i) { return "column." + std::to_string(i); }
 
@@ -102,12 +105,36 @@ struct Sections {
 
 Sections read_sections(SceneInput& input) {
   const std::vector<char> head = read_head(input);
-  require_memory(input.size(), "'" + input.path().string() + "'");
   std::uint32_t version = 0;
   std::memcpy(&version, head.data() + offsetof(HeaderStart, version), sizeof version);
   if (version > LAST_VERSION_WITHOUT_NAMES) return {read_table(input, head), {}};
   OldScene old = read_old_table(input, head);
   return {std::move(old.table), old.ellipses};
+}
+
+/// Whether a pool is read into memory: what says where a walk of the octree goes on. A file that someone changes must not lead it in circles.
+template <typename Row>
+bool leads_walks(const Row& row) {
+  return row.length == PoolLength::nodes || row.length == PoolLength::leaf_ends;
+}
+
+/// Throws Error (out_of_memory) unless there is room for what is read into memory.
+void require_room(SceneInput& input, const SectionReader& sections) {
+  std::uint64_t bytes = input.mapping() ? 0 : input.size();
+  for_each_pool([&](const auto& row) {
+    if (input.mapping() && leads_walks(row)) bytes += sections.find(row.key).bytes;
+  });
+  require_memory(bytes, "'" + input.path().string() + "'");
+}
+
+/// The wide tree, where a file has one.
+void read_wide_tree(SceneInput& input, SectionReader& sections, Scene& scene) {
+  if (!sections.has(WIDE_NODES)) return;
+  scene.wide_nodes = sections.pool<WideNode>(WIDE_NODES);
+  if (!has_wide_tree(scene))
+    input.refuse("a wide tree of " + std::to_string(scene.wide_nodes.size()) + " nodes for " +
+                     std::to_string(scene.data_pool.size()) + " splats",
+                 std::to_string(wide_levels(scene.data_pool.size()).nodes));
 }
 
 /// The records of a section, none where the file has no such section.
@@ -168,13 +195,13 @@ void read_stations(SceneInput& input, SectionReader& sections, Scene& scene) {
 Column::Values read_column(SceneInput& input, SectionReader& sections, const std::string& section) {
   switch (sections.find(section).type) {
     case ElementType::uint8:
-      return sections.array<std::uint8_t>(section);
+      return sections.pool<std::uint8_t>(section);
     case ElementType::uint16:
-      return sections.array<std::uint16_t>(section);
+      return sections.pool<std::uint16_t>(section);
     case ElementType::float32:
-      return sections.array<float>(section);
+      return sections.pool<float>(section);
     case ElementType::float64:
-      return sections.array<double>(section);
+      return sections.pool<double>(section);
     default:
       input.refuse("section '" + section + "' of a type that columns are not of", "1 to 4");
   }
@@ -198,6 +225,7 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
   add_objects(file, scene);
   add_world(file, scene);
   add_attributes(file, scene);
+  if (!scene.wide_nodes.empty()) file.add(WIDE_NODES, scene.wide_nodes, SECTION_OPTIONAL);
   file.write(SCENE_FILE_VERSION, path, progress);
 }
 
@@ -205,12 +233,16 @@ Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
   SceneInput input(path, progress);
   Sections file = read_sections(input);
   SectionReader sections(input, std::move(file.table));
+  require_room(input, sections);
   Scene scene;
   const std::uint64_t leaves = sections.find("slab_pool").count();
   std::future<std::optional<SceneDefect>> tree_defect;
   for_each_pool([&](const auto& row) {
     using Value = typename std::remove_reference_t<decltype(scene.*row.pool)>::value_type;
-    if (!row.optional() || sections.has(row.key)) scene.*row.pool = sections.array<Value>(row.key);
+    if (leads_walks(row))
+      scene.*row.pool = sections.array<Value>(row.key);
+    else if (!row.optional() || sections.has(row.key))
+      scene.*row.pool = sections.pool<Value>(row.key);
     // Beside the reading of all else, which takes longer.
     if (!tree_defect.valid())
       tree_defect = std::async(std::launch::async, find_tree_defect,
@@ -220,12 +252,15 @@ Scene read_scene(const std::filesystem::path& path, const Progress& progress) {
   read_world(input, sections, scene);
   read_stations(input, sections, scene);
   read_columns(input, sections, scene);
+  read_wide_tree(input, sections, scene);
   sections.end();
   if (const auto defect = tree_defect.get()) input.refuse(defect->found, defect->expected);
   if (const auto defect = find_content_defect(scene)) input.refuse(defect->found, defect->expected);
   const bool ellipses = clip_content(scene.clip_pool).ellipses;
   if (file.ellipses.value_or(ellipses) != ellipses)
     input.refuse(ellipses ? "ellipses" : "no ellipses", "those that the header tells of");
+  if (input.mapping()) input.mapping()->require_whole();
+  scene.mapping = input.mapping();
   return scene;
 }
 

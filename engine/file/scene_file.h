@@ -53,6 +53,8 @@
 ///   station_names    | text    | beside the stations
 ///   column_names     | text    | of column.0 and so on
 ///   column.0 ...     | 1 to 4  | values beside the splats, at most 32 columns
+///   wide_nodes       | record  | WideNode (scene/wide/wide_node.h), the tree of programs on the host over the splats, which then lie in its
+///                    |         | order; optional, another layout would have another name
 /// A text ends with a zero byte, also the last of several. Records may be longer than a reader knows, which leaves their tail out, or
 /// shorter (LEAST_BYTES of scene_records.h): what is not there is zero, and zero means what files without it do.
 ///
@@ -72,7 +74,7 @@ inline constexpr std::uint32_t SCENE_FILE_VERSION = 15;
 /// `progress`, called with the stage "writing", says so; leaves nothing behind.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
 
-/// Reads and checks a whole scene file of version 10 to 15. Refuses, as Error (input_unreadable) with path, found and expected: wrong
+/// Reads and checks a whole scene file of version 10 to 15. What is large of it stays where it is, mapped (Scene::mapping). Refuses, as Error (input_unreadable) with path, found and expected: wrong
 /// magic, another version (build again), foreign endianness, truncation at any byte, extra bytes, checksum mismatch, a missing
 /// section, one that is not known and not optional, two of one name, and whatever find_scene_defect (scene_check.h) finds. Error
 /// (interrupted) when `progress`, called with the stage "reading", says so.

@@ -2,11 +2,13 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "engine/file/scene_input.h"
+#include "engine/scene/pool/pool.h"
 #include "shaders/layout.h"
 
 namespace splatray::scene_file {
@@ -95,14 +97,26 @@ class SectionReader {
   /// Refuses a file without the section.
   [[nodiscard]] const Section& find(const std::string& name) const;
 
-  /// An array. Refuses a file without it, and elements of another type.
+  /// An array in memory. Refuses a file without it, elements of another type, and records of another size.
   template <typename Value>
   [[nodiscard]] std::vector<Value> array(const std::string& name) {
-    static_assert(element_type<Value>() != ElementType::record);
-    require_type(name, element_type<Value>());
+    require_array<Value>(name);
     std::vector<Value> values(find(name).count());
     take(name, values.data());
     return values;
+  }
+
+  /// The same where it lies, if it is large and the file is mapped.
+  template <typename Value>
+  [[nodiscard]] Pool<Value> pool(const std::string& name) {
+    require_array<Value>(name);
+    const Section& section = find(name);
+    if (!input_.mapping() || section.bytes < LEAST_MAPPED_BYTES) return array<Value>(name);
+    const std::byte* const begin = input_.mapping()->bytes().data() + section.offset;
+    const std::span<const Value> lent(reinterpret_cast<const Value*>(begin), section.count());
+    require_checksum(name, input_.checksum(section.offset, section.bytes), section.checksum);
+    table_.erase(name);
+    return {lent, input_.mapping()};
   }
 
   /// Records, whatever is behind a Record's end left out; what they are too short for is zero. Refuses a file without them, and
@@ -124,6 +138,15 @@ class SectionReader {
   void end();
 
  private:
+  template <typename Value>
+  void require_array(const std::string& name) const {
+    static_assert(std::is_trivially_copyable_v<Value> && alignof(Value) <= ALIGNMENT);
+    require_type(name, element_type<Value>());
+    if (find(name).element_bytes != sizeof(Value))
+      input_.refuse(
+          "section '" + name + "' with elements of " + std::to_string(find(name).element_bytes) + " bytes",
+          std::to_string(sizeof(Value)));
+  }
   void require_type(const std::string& name, ElementType type) const;
   void require_record(const std::string& name, std::uint32_t least_bytes) const;
   void take(const std::string& name, void* target);

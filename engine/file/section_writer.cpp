@@ -29,9 +29,10 @@ void SectionWriter::keep_strings(const std::string& name, const std::vector<std:
   keep(name, bytes);
 }
 
-void SectionWriter::add(const std::string& name, ElementType type, std::uint32_t element_bytes,
-                        const void* content, std::uint64_t bytes) {
-  SectionEntry entry{{}, type, element_bytes, 0, 0, 0, bytes, checksum_of(content, bytes)};
+void SectionWriter::add(const std::string& name, const Elements& elements, const void* content,
+                        std::uint64_t bytes) {
+  SectionEntry entry{
+      {}, elements.type, elements.bytes, elements.flags, 0, 0, bytes, checksum_of(content, bytes)};
   assert(name.size() <= sizeof entry.name);
   name.copy(entry.name, sizeof entry.name);
   entries_.push_back(entry);

@@ -7,8 +7,11 @@
 
 #include "engine/base/error.h"
 #include "engine/base/release.h"
+#include "engine/file/file_mapping.h"
 #include "engine/scene/look_style.h"
-#include "engine/scene/splat.h"
+#include "engine/scene/pool/pool_table.h"
+#include "engine/scene/scene_splat.h"
+#include "engine/scene/wide/wide_tree.h"
 #include "engine/table/albedo_table.h"
 
 namespace splatray {
@@ -33,18 +36,33 @@ DeviceScene::DeviceScene(const Device& device, Queue& queue, const PoolRequest& 
 }
 
 void DeviceScene::upload(const Scene& scene, Scene* spent) {
+  if (queue_.walks_wide_tree() && !has_wide_tree(scene)) {
+    Scene ordered = scene;
+    if (spent != nullptr) for_each_pool([&](const auto& row) { spent->*row.pool = {}; });
+    add_wide_tree(ordered);
+    upload(ordered, &ordered);
+    return;
+  }
   bindings_.reset();
-  splat_tree_.reset();
+  wide_nodes_.reset();
   pools_ = {};  // the device may not have room for two scenes
   shows_look_ = false;
   clip_content_ = clip_content(scene.clip_pool);
   leans_ = any_leans(scene.field_pool);
-  std::vector<std::uint32_t> order;
-  splat_tree_ = queue_.make_tree(scene.data_pool, order);
-  pools_ = Pools(queue_, device_.limits(), scene, request_, spent, order);
+  const std::size_t splats = splat_count(scene);
+  PoolRequest request = request_;
+  if (queue_.walks_wide_tree()) {
+    request.data = DataPool::references;
+    const auto nodes = std::as_bytes(std::span(scene.wide_nodes));
+    wide_nodes_ = queue_.lend(nodes, scene.wide_nodes.keeper());
+  }
+  if (spent != nullptr) spent->wide_nodes = {};
+  pools_ = Pools(queue_, device_.limits(), scene, request, spent);
+  if (scene.mapping) scene.mapping->require_whole();
   bindings_ = queue_.make_bindings(pools_.paging);
-  if (splat_tree_) bindings_->bind(*splat_tree_);
+  if (wide_nodes_) bindings_->bind_wide_tree(*wide_nodes_, splats);
   outline_ = {};
+  if (queue_.walks_wide_tree()) outline_.mapping = scene.mapping;  // elsewhere pools are copies by now
   outline_.root = scene.root;
   outline_.bounds_min_world = scene.bounds_min_world;
   outline_.bounds_max_world = scene.bounds_max_world;
@@ -146,10 +164,14 @@ void DeviceScene::bind() {
   bindings_->bind(*environment_);
 }
 
+void DeviceScene::require_whole() const {
+  if (outline_.mapping) outline_.mapping->require_whole();
+}
+
 PoolBytes DeviceScene::bytes() const {
   PoolBytes bytes = pools_.bytes;
   bytes.environment = environment_->size();
-  if (splat_tree_) bytes.at(BIND_DATA_POOL) = splat_tree_->bytes();
+  if (wide_nodes_) bytes.at(BIND_DATA_POOL) += wide_nodes_->size();
   return bytes;
 }
 

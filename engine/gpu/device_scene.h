@@ -32,6 +32,8 @@ class DeviceScene {
 
   /// Whether there is a scene.
   [[nodiscard]] bool uploaded() const { return bindings_ != nullptr; }
+  /// Throws Error (input_unreadable) where the scene lies in a file that has changed since: what was traced is worth nothing.
+  void require_whole() const;
   /// Bindings of the uploaded scene; its own are set by bind().
   [[nodiscard]] Bindings& bindings() { return *bindings_; }
   void bind();
@@ -58,10 +60,10 @@ class DeviceScene {
   const PoolRequest request_;
   std::unique_ptr<Bindings> bindings_;  ///< of the pools
 
-  Scene outline_;  ///< the scene without its arrays: transform, bounds, up
+  Scene outline_;  ///< the scene without its arrays: transform, bounds, up, mapping
   std::size_t object_count_ = 0;
   Pools pools_;
-  std::unique_ptr<SplatTree> splat_tree_;  ///< null where programs walk the octree
+  std::unique_ptr<Buffer> wide_nodes_;  ///< null where programs walk the octree
   ClipContent clip_content_;
   bool leans_ = false;       ///< any_leans
   Look shown_;               ///< as uploaded

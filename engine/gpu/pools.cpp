@@ -13,7 +13,7 @@
 #include "engine/base/all_cores.h"
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
-#include "engine/scene/pool_table.h"
+#include "engine/scene/pool/pool_table.h"
 #include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
 
@@ -63,7 +63,7 @@ std::variant<Paging, std::string> try_paging(const PoolBytes& bytes, const Devic
 
 /// Uploads the pool gathered by `references` in parts: a whole list beside the buffer would take its memory twice.
 template <typename Value>
-void upload_listed(Queue& queue, PagedBuffer& buffer, const std::vector<Value>& pool,
+void upload_listed(Queue& queue, PagedBuffer& buffer, const Pool<Value>& pool,
                    std::span<const std::uint32_t> references) {
   constexpr std::size_t PART = std::size_t{1} << 18U, SLICE = std::size_t{1} << 14U;
   if (pool.empty()) return;
@@ -79,13 +79,14 @@ void upload_listed(Queue& queue, PagedBuffer& buffer, const std::vector<Value>& 
   }
 }
 
-/// The references, to where a list has the splats.
-void upload_places(Queue& queue, PagedBuffer& buffer, std::span<const std::uint32_t> list,
-                   const std::vector<std::uint32_t>& references) {
-  std::vector<std::uint32_t> places(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) places[list[i]] = static_cast<std::uint32_t>(i);
-  places = listed(places, references);
-  buffer.upload(queue, std::as_bytes(std::span(places)));
+/// A pool as it is.
+template <typename Value>
+PagedBuffer upload_whole(Queue& queue, const Pool<Value>& pool, std::uint64_t page_bytes) {
+  const auto bytes = std::as_bytes(std::span(pool));
+  if (std::unique_ptr<Buffer> lent = queue.lend(bytes, pool.keeper())) return PagedBuffer(std::move(lent));
+  PagedBuffer buffer(queue, bytes.size(), page_bytes);
+  buffer.upload(queue, bytes);
+  return buffer;
 }
 
 /// The splats' words, in the order of `references` or, where that is empty, of the splats.
@@ -138,23 +139,23 @@ Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits) {
 }
 
 Pools::Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
-             Scene* spent, std::span<const std::uint32_t> order) {
+             Scene* spent) {
   assert(spent == nullptr || spent == &scene);
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
   std::vector<std::uint32_t> top = top_table(scene, top_levels);
   DeviceLimits limits = device_limits;
   limits.storage_bytes =
       std::min(limits.storage_bytes / sizeof(uvec4), request.page_elements) * sizeof(uvec4);
-  references = !order.empty() || choose_references(pool_counts(scene), limits, request.data);
-  const auto list = references ? order : std::span<const std::uint32_t>(scene.reference_pool);
+  references = choose_references(pool_counts(scene), limits, request.data);
+  const auto list =
+      references ? std::span<const std::uint32_t>() : std::span<const std::uint32_t>(scene.reference_pool);
   const bool lists = !list.empty();
   std::uint32_t binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
     const auto& pool = scene.*row.pool;
-    const bool in_tree = binding == BIND_DATA_POOL && !order.empty();
-    const bool absent = pool.empty() || in_tree || (binding == BIND_REFERENCE_POOL && !references);
+    const bool absent = pool.empty() || (binding == BIND_REFERENCE_POOL && !references);
     const std::size_t elements = absent ? 0 : lists && row.listed() ? list.size() : pool.size();
-    bytes.at(binding++) = elements * sizeof(pool.front());
+    bytes.at(binding++) = elements * element_bytes(row);
     if (elements > 0) features |= row.feature;
   });
   texture_features = splatray::texture_features(scene.columns);
@@ -163,23 +164,25 @@ Pools::Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene
   bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
   paging = choose_paging(bytes, limits);
   bytes.pages = *std::max_element(paging.pages.begin(), paging.pages.end());
-  for (std::size_t i = 0; i < POOLS; ++i) {
-    const PoolKind& kind = pool_kinds()[i];
-    const std::uint64_t page = paging.pages[i] > 1 ? kind.element_bytes << paging.page_shift : UINT64_MAX;
-    buffers[i] = PagedBuffer(queue, bytes.pools[i], page);
-  }
+  const auto page_bytes = [&](std::uint32_t of_binding) {
+    const std::size_t i = of_binding - BIND_POOLS;
+    return paging.pages[i] > 1 ? pool_kinds()[i].element_bytes << paging.page_shift : UINT64_MAX;
+  };
+  const auto make = [&](std::uint32_t of_binding) {
+    return PagedBuffer(queue, bytes.at(of_binding), page_bytes(of_binding));
+  };
+  buffers.back() = make(BIND_TOP_TABLE);
   buffers.back().upload(queue, std::as_bytes(std::span(top)));
   std::exchange(top, {});
-  if (texture_features != 0) upload_textures(queue, buffers[BIND_TEXTURE_POOL - BIND_POOLS], scene, list);
+  PagedBuffer& textures = buffers[BIND_TEXTURE_POOL - BIND_POOLS];
+  textures = make(BIND_TEXTURE_POOL);
+  if (texture_features != 0) upload_textures(queue, textures, scene, list);
   binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
     PagedBuffer& buffer = buffers[binding - BIND_POOLS];
-    if (bytes.at(binding) > 0 && lists && row.listed())
-      upload_listed(queue, buffer, scene.*row.pool, list);
-    else if (binding == BIND_REFERENCE_POOL && lists && references)
-      upload_places(queue, buffer, list, scene.reference_pool);
-    else if (bytes.at(binding) > 0)
-      buffer.upload(queue, std::as_bytes(std::span(scene.*row.pool)));
+    const bool whole = bytes.at(binding) > 0 && !(lists && row.listed());
+    buffer = whole ? upload_whole(queue, scene.*row.pool, page_bytes(binding)) : make(binding);
+    if (bytes.at(binding) > 0 && !whole) upload_listed(queue, buffer, scene.*row.pool, list);
     if (spent != nullptr && binding != BIND_REFERENCE_POOL) std::exchange(spent->*row.pool, {});
     ++binding;
   });

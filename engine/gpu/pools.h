@@ -7,13 +7,13 @@
 
 #include "engine/device/device.h"
 #include "engine/device/paged_buffer.h"
-#include "engine/scene/copies.h"
+#include "engine/scene/pool/copies.h"
 
 namespace splatray {
 
 /// What the data pool holds, and the colour pool and normal fields beside it.
 enum class DataPool {
-  /// Copies where they fit (engine/scene/copies.h) and one buffer holds them: splitting costs what they gain.
+  /// Copies where they fit (engine/scene/pool/copies.h) and one buffer holds them: splitting costs what they gain.
   automatic,
   copies,      ///< a copy of the splat for each reference, leaf by leaf: a test is one fetch
   references,  ///< each splat once; leaves have references: a test is two fetches
@@ -58,11 +58,10 @@ struct PoolKind {
 /// The uploaded pools; move-only.
 struct Pools {
   Pools() = default;
-  /// Uploads and waits; throws as choose_paging does. `spent` is null or the scene itself, whose pools are then freed, each as
-  /// soon as it is on the device; after an Error some of them may be gone. `order`: all splats' indices, in the order that a
-  /// SplatTree has them in, which is then the data pool; leaves of the octree have references to it. Empty = as `request` says.
+  /// Uploads and waits; throws as choose_paging does. What the queue takes where it lies is not copied. `spent` is null or the scene
+  /// itself, whose pools are then freed, each as soon as it is on the device; after an Error some of them may be gone.
   Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
-        Scene* spent = nullptr, std::span<const std::uint32_t> order = {});
+        Scene* spent = nullptr);
 
   Paging paging;
   PoolBytes bytes;                         ///< without environment and frame

@@ -41,6 +41,7 @@ void Runner::bind(const Buffer& accumulation_buffer) {
 
 double Runner::run(const Dispatch& dispatch) {
   const Ran ran = queue->run(dispatch, scene.bindings());
+  scene.require_whole();
   if (dispatch.counts_work())
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += ran.counted[i];
   return ran.ms;

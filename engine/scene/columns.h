@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/scene/pool/pool.h"
+
 namespace splatray {
 
 /// The names of attributes that readers of scans deliver, with what their values are.
@@ -42,8 +44,7 @@ inline constexpr std::size_t COLUMNS_MOST = 32;
 struct Column {
   std::string name;
   /// One of few types, so that a file takes no more bytes than the values need.
-  using Values = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>,
-                              std::vector<double>>;
+  using Values = std::variant<Pool<std::uint8_t>, Pool<std::uint16_t>, Pool<float>, Pool<double>>;
   Values values;
 
   [[nodiscard]] std::size_t size() const {
@@ -53,6 +54,13 @@ struct Column {
     return std::visit([i](const auto& list) { return static_cast<double>(list[i]); }, values);
   }
 };
+
+/// Calls change(values) with the values of a column as a vector that may be changed.
+template <typename Change>
+decltype(auto) edit_values(Column& column, const Change& change) {
+  return std::visit([&change](auto& values) -> decltype(auto) { return change(values.edit()); },
+                    column.values);
+}
 
 /// The column of this name; nullptr where there is none.
 [[nodiscard]] inline const Column* find_column(const std::vector<Column>& columns, std::string_view name) {

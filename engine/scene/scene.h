@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,10 +11,14 @@
 #include "engine/scene/camera.h"
 #include "engine/scene/columns.h"
 #include "engine/scene/look.h"
+#include "engine/scene/pool/pool.h"
 #include "engine/scene/station.h"
+#include "engine/scene/wide/wide_node.h"
 #include "shaders/layout.h"
 
 namespace splatray {
+
+class FileMapping;
 
 /// world = origin_world + root * unit_world; root in lattice units, [0, 2^LATTICE_BITS) per axis.
 struct RootTransform {
@@ -57,16 +62,19 @@ struct BuildParams {
 struct Scene {
   RootTransform root;
   BuildParams build;
-  std::vector<std::uint32_t> node_pool;  ///< node words; the root is word 0, never empty
+  Pool<std::uint32_t> node_pool;  ///< node words; the root is word 0, never empty
   /// Filled leaves + 1 entries, ascending, last = reference_pool.size().
-  std::vector<std::uint32_t> begin_end;
-  std::vector<std::uint32_t> slab_pool;  ///< one slab per filled leaf
+  Pool<std::uint32_t> begin_end;
+  Pool<std::uint32_t> slab_pool;  ///< one slab per filled leaf
   /// Indices into data_pool, leaf by leaf, in the order of its halves.
-  std::vector<std::uint32_t> reference_pool;
-  std::vector<uvec4> data_pool;           ///< the splats, in Z-order of their centres
-  std::vector<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
-  std::vector<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
-  std::vector<std::uint32_t> clip_pool;   ///< clip lines, ellipses beside data_pool, or empty (whole discs)
+  Pool<std::uint32_t> reference_pool;
+  Pool<uvec4> data_pool;           ///< the splats; with a tree in its order
+  Pool<std::uint32_t> color_pool;  ///< beside data_pool, or empty (no colours)
+  Pool<std::uint32_t> field_pool;  ///< normal fields beside data_pool, or empty (all discs are flat)
+  Pool<std::uint32_t> clip_pool;   ///< clip lines, ellipses beside data_pool, or empty (whole discs)
+  /// The wide tree over them (wide/wide_tree.h), level by level, the lowest first; empty: the scene has none. Who changes where splats
+  /// are must empty it.
+  Pool<WideNode> wide_nodes;
   std::vector<Column> columns;            ///< attributes beside data_pool, kept on the host; may be empty
   std::vector<Station> stations;          ///< of all objects' scans: what COLUMN_SCAN counts; may be empty
   std::vector<Material> materials;        ///< one per object
@@ -80,6 +88,8 @@ struct Scene {
   std::string environment_path;     ///< environment map named by the scene; empty = none
   /// The world's coordinate reference system as the files have it (describe_crs, base/crs.h); empty = unknown.
   std::string crs;
+  /// The file in which pools lie; null: all are in memory.
+  std::shared_ptr<const FileMapping> mapping;
 
   /// Length of the bounding box's diagonal, world units.
   [[nodiscard]] double diagonal_world() const { return glm::length(bounds_max_world - bounds_min_world); }
@@ -87,8 +97,7 @@ struct Scene {
 
 /// The pool gathered by `references`; the pool itself if there are none, empty if the pool is.
 template <typename Value>
-[[nodiscard]] std::vector<Value> listed(const std::vector<Value>& pool,
-                                        const std::vector<std::uint32_t>& references) {
+[[nodiscard]] Pool<Value> listed(const Pool<Value>& pool, const Pool<std::uint32_t>& references) {
   if (references.empty()) return pool;
   std::vector<Value> list;
   if (pool.empty()) return list;

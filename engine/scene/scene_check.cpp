@@ -9,7 +9,7 @@
 #include "engine/scene/leaf/empty_box.h"
 #include "engine/scene/leaf/slab.h"
 #include "engine/scene/material_fields.h"
-#include "engine/scene/pool_table.h"
+#include "engine/scene/pool/pool_table.h"
 
 namespace splatray {
 namespace {

@@ -40,7 +40,7 @@ constexpr std::uint32_t WORDS =
 template <class Value = std::uint8_t>
 std::span<const Value> bytes_of(const std::vector<Column>& columns, std::string_view name) {
   const Column* column = find_column(columns, name);
-  const auto* values = column == nullptr ? nullptr : std::get_if<std::vector<Value>>(&column->values);
+  const auto* values = column == nullptr ? nullptr : std::get_if<Pool<Value>>(&column->values);
   return values == nullptr ? std::span<const Value>() : *values;
 }
 

@@ -29,15 +29,13 @@ void append_column(Column& to, std::size_t to_size, Column&& more, std::size_t s
           to.values = converted<Value>(to);
         },
         more.values);
-  std::visit(
-      [&](auto& list) {
-        using Value = typename std::decay_t<decltype(list)>::value_type;
-        std::vector<Value> values = std::holds_alternative<std::vector<Value>>(more.values)
-                                        ? std::get<std::vector<Value>>(std::move(more.values))
-                                        : converted<Value>(more);
-        append(list, to_size, std::move(values), size, static_cast<Value>(absent_value(to.name)));
-      },
-      to.values);
+  edit_values(to, [&](auto& list) {
+    using Value = typename std::decay_t<decltype(list)>::value_type;
+    std::vector<Value> values = std::holds_alternative<Pool<Value>>(more.values)
+                                    ? std::move(std::get<Pool<Value>>(more.values).edit())
+                                    : converted<Value>(more);
+    append(list, to_size, std::move(values), size, static_cast<Value>(absent_value(to.name)));
+  });
 }
 
 std::size_t number_of(const std::vector<Column>& columns, const std::string& name) {
@@ -53,12 +51,12 @@ void append_columns(std::vector<Column>& to, std::size_t to_size, std::vector<Co
   if (size == 0) return;
   for (Column& column : more) {
     const std::size_t i = number_of(to, column.name);
-    if (i == to.size()) to.push_back({column.name, std::vector<std::uint8_t>{}});
+    if (i == to.size()) to.push_back({column.name, Pool<std::uint8_t>()});
     append_column(to[i], to_size, std::move(column), size);
   }
   for (Column& column : to)
     if (number_of(more, column.name) == more.size())
-      append_column(column, to_size, {column.name, std::vector<std::uint8_t>{}}, size);
+      append_column(column, to_size, {column.name, Pool<std::uint8_t>()}, size);
 }
 
 }  // namespace splatray

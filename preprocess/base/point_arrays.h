@@ -31,7 +31,7 @@ inline const std::tuple POINT_ARRAYS{PointArray<glm::dvec3>{&Points::position, {
 template <typename Visit>
 void for_each_array(Points& points, const Visit& visit) {
   std::apply([&](const auto&... arrays) { (visit(points.*arrays.values), ...); }, POINT_ARRAYS);
-  for (Column& column : points.columns) std::visit(visit, column.values);
+  for (Column& column : points.columns) edit_values(column, visit);
 }
 
 /// Appends arrays and columns; what only one side has is filled with what is absent there. Stations and all else that is not of each

@@ -207,9 +207,8 @@ class SampleWriter {
   /// An attribute of the vertices at the points: numbers with a fraction are interpolated, whole ones are the nearest corner's.
   [[nodiscard]] Column on_samples(const Column& column) const {
     const auto take = [this](const auto& values) -> Column::Values {
-      using Values = std::decay_t<decltype(values)>;
-      using Value = typename Values::value_type;
-      Values taken(points_.size());
+      using Value = typename std::decay_t<decltype(values)>::value_type;
+      std::vector<Value> taken(points_.size());
       for (std::size_t i = 0; i < taken.size(); ++i) {
         const glm::uvec3& triangle = mesh_.triangles[triangles_[i]];
         const glm::vec3& w = weights_[i];
@@ -388,8 +387,8 @@ Points vertex_points(const Mesh& mesh, const std::vector<glm::uint>& weld, const
     if (!mesh.vertices.radius.empty()) points.radius.push_back(mesh.vertices.radius[i]);
   }
   for (const Column& column : mesh.vertices.columns) {
-    const auto take = [&kept](const auto& values) { return Column::Values(gather(values, kept)); };
-    points.columns.push_back({column.name, std::visit(take, column.values)});
+    Column& taken = points.columns.emplace_back(column);
+    edit_values(taken, [&kept](auto& values) { values = gather(values, kept); });
   }
   for (Column& column : maps.take()) points.columns.push_back(std::move(column));
   if (creases.clip) clip_vertices(mesh, weld, normals, creases.cosine, kept, points);

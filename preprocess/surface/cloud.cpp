@@ -48,7 +48,7 @@ Cloud take_points(Points&& points, const std::vector<std::uint32_t>& usable) {
   const std::vector<glm::vec3> color = take(points.color);
   cloud.color.resize(color.size());
   for (Column& column : points.columns)
-    std::visit([&](auto& values) { cloud.columns.push_back({column.name, take(values)}); }, column.values);
+    edit_values(column, [&](auto& values) { cloud.columns.push_back({column.name, take(values)}); });
   cloud.stations = std::move(points.stations);
   cloud.track = std::move(points.track);
   cloud.lattice = points.lattice;
@@ -142,7 +142,7 @@ void change_all(Cloud& cloud, const Change& change) {
   change(cloud.line);
   change(cloud.kind);
   change(cloud.radius_most);
-  for (Column& column : cloud.columns) std::visit(change, column.values);
+  for (Column& column : cloud.columns) edit_values(column, change);
 }
 
 /// Gives all arrays the values of these points, in this order.

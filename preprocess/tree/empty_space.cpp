@@ -28,7 +28,7 @@ OctreeBox layer_of(const OctreeBox& box, int side, int step) {
 }
 
 /// The address bits of an empty leaf with this cell. `path` leads from the root to its parent.
-std::uint32_t grown_word(const std::vector<std::uint32_t>& nodes, const OctreeCell& cell,
+std::uint32_t grown_word(std::span<const std::uint32_t> nodes, const OctreeCell& cell,
                          const std::vector<InnerNode>& path) {
   if (path.empty()) return 0;  // the root is empty itself: there is nothing to reach
   const auto step = static_cast<int>(cell.size);
@@ -59,7 +59,7 @@ struct Subtree {
 };
 
 /// Cuts the tree into parts that lie in cells of at most TASK_SIZE, or are leaves.
-void cut(const std::vector<std::uint32_t>& nodes, const Subtree& tree, std::vector<Subtree>& parts) {
+void cut(std::span<const std::uint32_t> nodes, const Subtree& tree, std::vector<Subtree>& parts) {
   const std::uint32_t word = nodes[tree.node];
   if (tree.cell.size <= TASK_SIZE || word >> NODE_TAG_SHIFT != NODE_INNER) {
     parts.push_back(tree);
@@ -72,7 +72,7 @@ void cut(const std::vector<std::uint32_t>& nodes, const Subtree& tree, std::vect
 }
 
 /// Writes into `grown` the words of a node's empty leaves.
-void grow_below(const std::vector<std::uint32_t>& nodes, std::uint32_t node, const OctreeCell& cell,
+void grow_below(std::span<const std::uint32_t> nodes, std::uint32_t node, const OctreeCell& cell,
                 std::vector<InnerNode>& path, std::vector<std::uint32_t>& grown) {
   const std::uint32_t word = nodes[node];
   if (word >> NODE_TAG_SHIFT == NODE_EMPTY) grown[node] |= grown_word(nodes, cell, path);
@@ -86,7 +86,7 @@ void grow_below(const std::vector<std::uint32_t>& nodes, std::uint32_t node, con
 }  // namespace
 
 void grow_empty_leaves(Scene& scene, const Stage& stage) {
-  std::vector<std::uint32_t> grown = scene.node_pool;
+  std::vector<std::uint32_t> grown(scene.node_pool.begin(), scene.node_pool.end());
   std::vector<Subtree> parts;
   cut(scene.node_pool, {0, {glm::uvec3(0), 1U << LATTICE_BITS}, {}}, parts);
   parallel_each(

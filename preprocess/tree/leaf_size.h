@@ -1,6 +1,6 @@
 /// How large leaves are by default.
 #pragma once
-#include "engine/scene/copies.h"
+#include "engine/scene/pool/copies.h"
 #include "preprocess/tree/octree.h"
 
 namespace splatray {

@@ -131,13 +131,15 @@ std::uint32_t halve_leaf(std::span<std::uint32_t> list, std::span<const uvec4> d
 
 void add_slabs(Scene& scene, const Stage& stage) {
   const std::vector<OctreeCell> cells = leaf_cells(scene);
-  scene.slab_pool.resize(cells.size());
+  std::vector<std::uint32_t> slabs(cells.size());
+  const std::span references(scene.reference_pool.edit());
   tbb::enumerable_thread_specific<Workspace> spaces;
   parallel_each(stage, cells.size(), [&](std::size_t leaf) {
     const std::uint32_t begin = scene.begin_end[leaf];
-    const std::span list = std::span(scene.reference_pool).subspan(begin, scene.begin_end[leaf + 1] - begin);
-    scene.slab_pool[leaf] = halve_leaf(list, scene.data_pool, cells[leaf], spaces.local());
+    const std::span list = references.subspan(begin, scene.begin_end[leaf + 1] - begin);
+    slabs[leaf] = halve_leaf(list, scene.data_pool, cells[leaf], spaces.local());
   });
+  scene.slab_pool = std::move(slabs);
 }
 
 }  // namespace splatray

@@ -41,7 +41,7 @@ LeftOut LeftOutPoints::take(Scene& scene) && {
   });
   LeftOut taken{gather(all_.position, left), gather(all_.color, left), std::move(all_.columns)};
   for (Column& column : taken.columns)
-    std::visit([&](auto& values) { values = gather(values, left); }, column.values);
+    edit_values(column, [&](auto& values) { values = gather(values, left); });
   return taken;
 }
 

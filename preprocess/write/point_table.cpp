@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <span>
 
 #include "engine/base/srgb.h"
 #include "engine/scene/scene_splat.h"
@@ -26,7 +27,7 @@ double channel_of(std::uint32_t color, int channel, double most) {
 }
 
 /// Whether 8 bits of what displays have give the same colours when they are read.
-bool fit_8_bits(const std::vector<std::uint32_t>& colors) {
+bool fit_8_bits(std::span<const std::uint32_t> colors) {
   std::array<bool, 256> fits{};
   for (std::uint32_t byte = 0; byte < 256; ++byte) {
     const auto read = srgb_to_linear(static_cast<float>(channel_of(byte, 0, 255.0) / 255.0));
@@ -104,7 +105,7 @@ void add_columns(const Scene& scene, const LeftOut& left_out, PointTable& table)
 }
 
 void add_words(const Scene& scene, PointTable& table) {
-  const std::vector<std::uint32_t>* const pools[] = {&scene.field_pool, &scene.clip_pool};
+  const Pool<std::uint32_t>* const pools[] = {&scene.field_pool, &scene.clip_pool};
   for (std::size_t n = 0; n < SPLAT_WORDS.size(); ++n)
     if (const auto& pool = *pools[n]; table.splats_alone && !pool.empty())
       table.words.push_back({std::string(SPLAT_WORDS[n]), ValueType::uint32,

@@ -100,7 +100,7 @@ TEST(Attributes, HeightIsSoftAndPlainIsNoColour) {
   }
   options.color_by = "plain";
   EXPECT_TRUE(color_by(scene, options).colors.empty()) << "it has none";
-  scene.color_pool.assign(scene.data_pool.size(), 0);
+  scene.color_pool.edit().assign(scene.data_pool.size(), 0);
   static_cast<void>(show_attributes(scene, options));
   EXPECT_EQ(scene.color_pool,
             std::vector<std::uint32_t>(scene.data_pool.size(), pack_color(glm::vec3(1.0F))));
@@ -215,7 +215,7 @@ TEST(Attributes, OwnColoursAreOfferedWhereThereAreSome) {
       color_by(scene, {.color_by = "plain", .color_range = {}, .hidden_classes = {}, .hidden_scans = {}})
           .colors.size(),
       0U);
-  scene.color_pool.assign(scene.data_pool.size(), 0);
+  scene.color_pool.edit().assign(scene.data_pool.size(), 0);
   const std::vector<std::string> sources = color_sources(scene);
   EXPECT_EQ(sources[0], "rgb");
   EXPECT_EQ(sources[1], "plain");

@@ -37,10 +37,10 @@ std::string said(const Shot& shot) { return shot.of + ": " + choices_text(shot);
 
 /// A grey for each splat, from `dark` to `bright`.
 void colour(Scene& scene, float dark, float bright) {
-  scene.color_pool.clear();
+  scene.color_pool.edit().clear();
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const float share = static_cast<float>(i) / static_cast<float>(scene.data_pool.size());
-    scene.color_pool.push_back(pack_color(glm::vec3(dark + share * (bright - dark))));
+    scene.color_pool.edit().push_back(pack_color(glm::vec3(dark + share * (bright - dark))));
   }
 }
 
@@ -167,7 +167,7 @@ TEST(Shot, ColoursThatAreNormalsAreNotShown) {
   Scene scene = room();
   for (std::size_t i = 0; i < splat_count(scene); ++i) {
     const glm::vec3 shown = glm::vec3(0.5) + glm::vec3(0.5) * glm::vec3(splat_at(scene, i).normal());
-    scene.color_pool.push_back(
+    scene.color_pool.edit().push_back(
         pack_color({srgb_to_linear(shown.x), srgb_to_linear(shown.y), srgb_to_linear(shown.z)}));
   }
   const Shot shot = shot_of(scene);
@@ -178,7 +178,8 @@ TEST(Shot, ColoursThatAreNormalsAreNotShown) {
   Request asked;
   asked.look.attributes.color_by = "rgb";
   EXPECT_EQ(suited(scene, asked).look.attributes.color_by, "rgb");
-  std::rotate(scene.color_pool.begin(), scene.color_pool.begin() + 1, scene.color_pool.end());
+  std::vector<std::uint32_t>& colors = scene.color_pool.edit();
+  std::rotate(colors.begin(), colors.begin() + 1, colors.end());
   EXPECT_EQ(suited(scene).look.attributes.color_by, "rgb") << "as bright, elsewhere";
 }
 

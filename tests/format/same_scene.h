@@ -2,7 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "engine/scene/pool_table.h"
+#include "engine/scene/pool/pool_table.h"
 
 namespace splatray {
 

@@ -37,21 +37,25 @@ TEST(SceneCheck, FindsBadTransforms) {
 }
 
 TEST(SceneCheck, FindsBadNodes) {
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[0] = inner(2); }), "node 0 with children at 2");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[1] = inner(0); }), "node 1 with children at 0");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = inner(1); }),
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[0] = inner(2); }), "node 0 with children at 2");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[1] = inner(0); }), "node 1 with children at 0");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[8] = inner(1); }),
             "node 8 with children that have another parent");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = filled(2); }).substr(0, 6), "leaf 8");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = 0xC0000000U; }).substr(0, 6), "leaf 8");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] |= EMPTY_STEPS_MASK + 1U; }).substr(0, 6), "leaf 2");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.push_back(filled(0)); }), "1 node words outside the tree");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.clear(); }), "no octree");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[8] = filled(2); }).substr(0, 6), "leaf 8");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[8] = 0xC0000000U; }).substr(0, 6), "leaf 8");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[2] |= EMPTY_STEPS_MASK + 1U; }).substr(0, 6),
+            "leaf 2");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit().push_back(filled(0)); }),
+            "1 node words outside the tree");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit().clear(); }), "no octree");
 }
 
 TEST(SceneCheck, FindsLeavesWithoutANodeOfTheirOwn) {
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = filled(0); }), "node 2 that shares filled leaf 0");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = filled(0); }), "node 8 that shares filled leaf 0");
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[8] = NODE_EMPTY << NODE_TAG_SHIFT; }),
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[2] = filled(0); }),
+            "node 2 that shares filled leaf 0");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[8] = filled(0); }),
+            "node 8 that shares filled leaf 0");
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[8] = NODE_EMPTY << NODE_TAG_SHIFT; }),
             "1 filled leaves that are not in the tree");
 }
 
@@ -62,30 +66,33 @@ constexpr std::uint32_t empty(std::uint32_t side, std::uint32_t steps) {
 
 /// In the tiny scene children 0 (node 1) and 7 (node 8) are filled.
 TEST(SceneCheck, FindsEmptySpaceOverFilledLeaves) {
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(3, 1); }), "") << "child 1 over child 3";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[2] = empty(3, 1); }), "") << "child 1 over child 3";
   const auto over = [](std::size_t node) {
     return "empty leaf " + std::to_string(node) + " whose box reaches over a filled leaf or out of the root";
   };
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(0, 1); }), over(2)) << "child 1 over child 0";
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[7] = empty(1, 1); }), over(7)) << "child 6 over child 7";
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[4] = empty(5, 1); }), over(4)) << "child 3 over child 7";
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(1, 1); }), over(2))
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[2] = empty(0, 1); }), over(2))
+      << "child 1 over child 0";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[7] = empty(1, 1); }), over(7))
+      << "child 6 over child 7";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[4] = empty(5, 1); }), over(4))
+      << "child 3 over child 7";
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[2] = empty(1, 1); }), over(2))
       << "child 1 out of the root";
-  EXPECT_EQ(found_after([](Scene& s) { s.node_pool[2] = empty(3, 2); }), over(2))
+  EXPECT_EQ(found_after([](Scene& s) { s.node_pool.edit()[2] = empty(3, 2); }), over(2))
       << "child 1 out of the root";
 }
 
 TEST(SceneCheck, FindsEmptySpaceOverDeeperFilledLeaves) {
   const auto deepen = [](Scene& s, std::uint32_t filled_child, std::uint32_t word) {
-    s.node_pool[8] = inner(9);
-    s.node_pool.resize(17, NODE_EMPTY << NODE_TAG_SHIFT);
-    s.node_pool[9 + filled_child] = filled(1);
-    s.node_pool[7] = word;
+    s.node_pool.edit()[8] = inner(9);
+    s.node_pool.edit().resize(17, NODE_EMPTY << NODE_TAG_SHIFT);
+    s.node_pool.edit()[9 + filled_child] = filled(1);
+    s.node_pool.edit()[7] = word;
   };
   EXPECT_NE(found_after([&](Scene& s) { deepen(s, 6, empty(1, 1)); }), "");
   EXPECT_NE(found_after([&](Scene& s) { deepen(s, 0, empty(1, 1)); }), "");
   const auto below = [&](std::uint32_t child, std::uint32_t word) {
-    return found_after([&](Scene& s) { deepen(s, 7, empty(0, 0)), s.node_pool[9 + child] = word; });
+    return found_after([&](Scene& s) { deepen(s, 7, empty(0, 0)), s.node_pool.edit()[9 + child] = word; });
   };
   EXPECT_EQ(below(6, empty(0, 1)), "") << "into the neighbour of its parent";
   EXPECT_NE(below(6, empty(1, 1)), "") << "over its filled sibling";
@@ -94,10 +101,11 @@ TEST(SceneCheck, FindsEmptySpaceOverDeeperFilledLeaves) {
 }
 
 TEST(SceneCheck, FindsBadSlabs) {
-  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool[1] |= 63U << 5U; }), "slab 1 with an invalid axis");
-  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool[1] = (SLAB_FULL & 0xFFFFFFU) | 1U << 24U | 2U << 28U; }),
-            "");
-  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool[1] = (SLAB_FULL & 0xFFFFFFU) | 2U << 28U; }),
+  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool.edit()[1] |= 63U << 5U; }), "slab 1 with an invalid axis");
+  EXPECT_EQ(
+      found_after([](Scene& s) { s.slab_pool.edit()[1] = (SLAB_FULL & 0xFFFFFFU) | 1U << 24U | 2U << 28U; }),
+      "");
+  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool.edit()[1] = (SLAB_FULL & 0xFFFFFFU) | 2U << 28U; }),
             "slab 1 whose halves leave out 1 of the leaf's splats");
 }
 
@@ -105,9 +113,9 @@ TEST(SceneCheck, FindsTooDeepTrees) {
   const auto deepen = [](Scene& scene, std::uint32_t levels) {
     for (std::uint32_t level = 1; level < levels; ++level) {
       const auto end = static_cast<std::uint32_t>(scene.node_pool.size());
-      scene.node_pool.back() = inner(end);
-      scene.node_pool.resize(end + 7, NODE_EMPTY << NODE_TAG_SHIFT);
-      scene.node_pool.push_back(filled(1));
+      scene.node_pool.edit().back() = inner(end);
+      scene.node_pool.edit().resize(end + 7, NODE_EMPTY << NODE_TAG_SHIFT);
+      scene.node_pool.edit().push_back(filled(1));
     }
   };
   EXPECT_EQ(found_after([&](Scene& s) { deepen(s, MAX_DEPTH); }), "");
@@ -119,29 +127,31 @@ TEST(SceneCheck, FindsBadBeginEnd) {
   EXPECT_NE(found_after([](Scene& s) { s.begin_end = {1, 2, 5}; }), "");
   EXPECT_NE(found_after([](Scene& s) { s.begin_end = {0, 5, 5}; }), "");
   EXPECT_NE(found_after([](Scene& s) { s.begin_end = {0, 6, 5}; }), "");
-  EXPECT_EQ(found_after([](Scene& s) { s.reference_pool[2] = 4; }), "a reference to splat 4");
+  EXPECT_EQ(found_after([](Scene& s) { s.reference_pool.edit()[2] = 4; }), "a reference to splat 4");
 }
 
 TEST(SceneCheck, FindsBadSplats) {
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].w |= 2U; }), "splat 2 of object 2");
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].y |= 1U << 21U; }),
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool.edit()[2].w |= 2U; }), "splat 2 of object 2");
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool.edit()[2].y |= 1U << 21U; }),
             "splat 2 with its reserved bit set");
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].z |= 0xFFFFU; }), "splat 2 with an invalid normal");
-  EXPECT_EQ(found_after([](Scene& s) { s.data_pool[2].z |= 0xFFFF0000U; }), "splat 2 with an invalid normal");
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool.edit()[2].z |= 0xFFFFU; }),
+            "splat 2 with an invalid normal");
+  EXPECT_EQ(found_after([](Scene& s) { s.data_pool.edit()[2].z |= 0xFFFF0000U; }),
+            "splat 2 with an invalid normal");
   for (const std::uint32_t bits :
        {0xFFFF0000U, 0xFE000000U, 0xC0000000U})  // NaN, infinity, larger than the root
-    EXPECT_EQ(found_after([&](Scene& s) { s.data_pool[2].w |= bits; }),
+    EXPECT_EQ(found_after([&](Scene& s) { s.data_pool.edit()[2].w |= bits; }),
               "splat 2 with a radius that is not finite or exceeds the root");
 }
 
 TEST(SceneCheck, FindsBadSizesAndLooks) {
-  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool.pop_back(); }), "1 slabs");
-  EXPECT_NE(found_after([](Scene& s) { s.color_pool.pop_back(); }), "");
-  EXPECT_NE(found_after([](Scene& s) { s.field_pool.pop_back(); }), "");
+  EXPECT_EQ(found_after([](Scene& s) { s.slab_pool.edit().pop_back(); }), "1 slabs");
+  EXPECT_NE(found_after([](Scene& s) { s.color_pool.edit().pop_back(); }), "");
+  EXPECT_NE(found_after([](Scene& s) { s.field_pool.edit().pop_back(); }), "");
   EXPECT_NE(found_after([](Scene& s) { s.object_names.pop_back(); }), "");
   EXPECT_EQ(found_after([](Scene& s) {
-              s.data_pool.resize(6, s.data_pool[0]), s.color_pool.clear(), s.field_pool.clear(),
-                  s.clip_pool.clear();
+              s.data_pool.edit().resize(6, s.data_pool[0]), s.color_pool.edit().clear(),
+                  s.field_pool.edit().clear(), s.clip_pool.edit().clear();
             }),
             "6 splats in 5 references");
   EXPECT_NE(found_after([](Scene& s) { s.camera->fov_y_deg = NAN; }), "");

@@ -1,8 +1,10 @@
 #include "engine/file/scene_file.h"
 
 #include <bit>
+#include <cstring>
 #include <limits>
 
+#include "engine/scene/wide/wide_tree.h"
 #include "tests/format/same_scene.h"
 #include "tests/format/scene_file_fixture.h"
 #include "tests/format/scene_of_version.h"
@@ -66,9 +68,9 @@ TEST_F(SceneFile, RoundTrip) {
 
 TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
   Scene scene = tiny_scene();
-  scene.color_pool.clear();
-  scene.field_pool.clear();
-  scene.clip_pool.clear();
+  scene.color_pool.edit().clear();
+  scene.field_pool.edit().clear();
+  scene.clip_pool.edit().clear();
   scene.columns.clear();
   scene.stations.clear();
   scene.camera.reset();
@@ -82,12 +84,32 @@ TEST_F(SceneFile, OptionalPartsMayBeAbsent) {
 
 TEST_F(SceneFile, EmptyColumnsAreKept) {
   Scene scene = tiny_scene();
-  for_each_pool([&](const auto& row) { (scene.*row.pool).clear(); });
+  for_each_pool([&](const auto& row) { scene.*row.pool = {}; });
   scene.node_pool = {NODE_EMPTY << NODE_TAG_SHIFT};
   scene.begin_end = {0};
   scene.columns = {{"intensity", std::vector<float>{}}};
   scene.build.normal_fields = false;
   expect_same_scene(read(written(scene)), scene);
+}
+
+TEST_F(SceneFile, KeepsAWideTree) {
+  Scene scene = tiny_scene();
+  add_wide_tree(scene);
+  const Bytes with_tree = written(scene);
+  const Scene copy = read(with_tree);
+  expect_same_scene(copy, scene);
+  ASSERT_EQ(copy.wide_nodes.size(), 1U);
+  EXPECT_EQ(std::memcmp(copy.wide_nodes.data(), scene.wide_nodes.data(), sizeof(WideNode)), 0);
+  EXPECT_EQ(written(copy), with_tree);
+  Bytes other = with_tree;
+  other[section_offset(with_tree, "wide_nodes") + 100] ^= 1;
+  expect_refusal(other, "section 'wide_nodes' with another checksum");
+  other = with_tree;
+  put<std::uint32_t>(other, entry_of(with_tree, "wide_nodes") + 28, sizeof(WideNode) / 2);
+  reseal(other);
+  expect_refusal(other, "section 'wide_nodes' with elements of 192 bytes, expected 384");
+  scene.wide_nodes = std::vector<WideNode>(3);
+  expect_refusal(written(scene), "a wide tree of 3 nodes for 4 splats, expected 1");
 }
 
 TEST_F(FullFile, EveryTruncationIsRefused) {

@@ -20,9 +20,9 @@ inline Scene scene_of_version(std::uint32_t version) {
     scene.lights.front().range = 8.0;
   }
   if (version >= 13)
-    scene.field_pool[1] = pack_lean({0.25, 0.0, 0.0}, unpack_splat(scene.data_pool[1]).normal);
+    scene.field_pool.edit()[1] = pack_lean({0.25, 0.0, 0.0}, unpack_splat(scene.data_pool[1]).normal);
   if (version >= 14) {
-    scene.clip_pool[1] = pack_ellipse(scene.data_pool[1], {1.0, 0.0, 0.0}, 5.0);
+    scene.clip_pool.edit()[1] = pack_ellipse(scene.data_pool[1], {1.0, 0.0, 0.0}, 5.0);
     scene.crs = "PROJCS[\"ETRS89 / UTM zone 32N\",UNIT[\"metre\",1]]";
     scene.stations[1].noise_world = 0.003;
     scene.stations[0].step_world = 1e-4;

@@ -17,8 +17,8 @@ inline Scene tiny_scene() {
   scene.root = {{10.0, -20.0, 30.0}, 0.5};
   scene.build = {3, Insertion::probe, 16, RadiusRule::knn, 1.25, 7, 11, true};
   scene.node_pool = {leaf(NODE_INNER, 1), leaf(NODE_FILLED, 0)};
-  scene.node_pool.resize(9, leaf(NODE_EMPTY, 0));
-  scene.node_pool[8] = leaf(NODE_FILLED, 1);
+  scene.node_pool.edit().resize(9, leaf(NODE_EMPTY, 0));
+  scene.node_pool.edit()[8] = leaf(NODE_FILLED, 1);
   scene.begin_end = {0, 2, 5};
   scene.slab_pool = {SLAB_FULL, SLAB_FULL};
   scene.reference_pool = {0, 1, 1, 2, 3};

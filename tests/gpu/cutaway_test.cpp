@@ -15,7 +15,7 @@ Scene two_walls() {
     splat.center = glm::round(scene.root.to_root({0.0, 0.0, z}));
     splat.normal = {0.0, 0.0, z > 0.0 ? -1.0 : 1.0};
     splat.object = z > 0.0 ? 0 : 1;
-    scene.data_pool[splat.object] = pack_splat(splat);
+    scene.data_pool.edit()[splat.object] = pack_splat(splat);
   }
   for (Material& material : scene.materials) material.flags = MATERIAL_TWO_SIDED;
   return scene;

@@ -63,9 +63,9 @@ Scene long_list(std::uint32_t others) {
   Splat aside = unpack_splat(scene.data_pool[1]);
   aside.center = {1e5, 1e5, 1e5};
   aside.radius_squared = 4.0;
-  scene.data_pool[1] = pack_splat(aside);
-  scene.reference_pool.assign(others, 1);
-  scene.reference_pool.push_back(0);
+  scene.data_pool.edit()[1] = pack_splat(aside);
+  scene.reference_pool.edit().assign(others, 1);
+  scene.reference_pool.edit().push_back(0);
   scene.begin_end = {0, others + 1};
   return scene;
 }

@@ -143,7 +143,7 @@ TEST_F(PoolUpload, ReportsBytesOfTheFrame) {
 
 TEST_F(PoolUpload, WhatDoesNotFitIsRefused) {
   Scene scene = disc_scene();
-  scene.node_pool.resize(2 * PAGES_MOST);
+  scene.node_pool.edit().resize(2 * PAGES_MOST);
   ShownTracer tracer(device, {.pools = {.page_elements = 1}});
   EXPECT_THROW(tracer.upload(scene), Error);
   EXPECT_EQ(tracer.pools_uploaded(), 0U);
@@ -158,10 +158,9 @@ TEST_F(PoolUpload, UploadAndFreeLeavesTheSceneWithoutItsPools) {
     EXPECT_EQ(scene.data_pool.size(), 3U) << "upload leaves it as it is";
     tracer.upload_and_free(scene);
     EXPECT_TRUE(picture == tracer.render(disc_view(50, 40), plain_settings()).rgba);
-    const std::size_t left = scene.node_pool.capacity() + scene.begin_end.capacity() +
-                             scene.slab_pool.capacity() + scene.reference_pool.capacity() +
-                             scene.data_pool.capacity() + scene.color_pool.capacity() +
-                             scene.field_pool.capacity() + scene.clip_pool.capacity();
+    const std::size_t left = scene.node_pool.size() + scene.begin_end.size() + scene.slab_pool.size() +
+                             scene.reference_pool.size() + scene.data_pool.size() + scene.color_pool.size() +
+                             scene.field_pool.size() + scene.clip_pool.size();
     EXPECT_EQ(left, 0U);
     EXPECT_EQ(scene.materials.size(), 3U);
     EXPECT_EQ(scene.bounds_max_world, disc_scene(3).bounds_max_world);
@@ -176,9 +175,9 @@ TEST_F(PoolUpload, PoolBeyondTheLargestStorageBufferIsPaged) {
   Scene scene = disc_scene();
   const std::uint32_t leaf = scene.node_pool[0];
   const auto children = static_cast<std::uint32_t>(limit / sizeof(std::uint32_t));
-  scene.node_pool.resize(children);
-  scene.node_pool[0] = NODE_INNER << NODE_TAG_SHIFT | children;
-  scene.node_pool.insert(scene.node_pool.end(), 8, leaf);
+  scene.node_pool.edit().resize(children);
+  scene.node_pool.edit()[0] = NODE_INNER << NODE_TAG_SHIFT | children;
+  scene.node_pool.edit().resize(children + std::size_t{8}, leaf);
   ShownTracer tracer(device);
   tracer.upload(scene);
   EXPECT_GT(tracer.pool_bytes().pages, 1U);

@@ -21,8 +21,8 @@ Scene disc_scene(std::uint32_t objects) {
   follow_phong(matte);
   for (std::uint32_t i = 0; i < objects; ++i) {
     const glm::dvec3 center = glm::round(scene.root.to_root({0.0, 0.0, -0.2 * i}));
-    scene.data_pool.push_back(pack_splat({center, {0.0, 0.0, 1.0}, radius * radius, i}));
-    scene.reference_pool.push_back(i);
+    scene.data_pool.edit().push_back(pack_splat({center, {0.0, 0.0, 1.0}, radius * radius, i}));
+    scene.reference_pool.edit().push_back(i);
     scene.materials.push_back(matte);
     scene.object_names.push_back("disc");
   }

@@ -231,9 +231,9 @@ TEST(Splat, HitsBesideClipLines) {
   for (int i = 0; i < 12; ++i) {
     const dvec3 normal = i < 3 ? dvec3(i == 0, i == 1, i == 2) : random_unit(random);
     Scene scene = lattice_scene({{dvec3(MIDDLE), normal, 5e5}}, test_material(MATERIAL_TWO_SIDED));
-    scene.clip_pool.assign(scene.data_pool.size(), CLIP_NONE);
+    scene.clip_pool.edit().assign(scene.data_pool.size(), CLIP_NONE);
     const std::size_t large = unpack_radius_squared(scene.data_pool[0]) > 100.0 ? 0 : 1;
-    scene.clip_pool[large] = line_words(random, i);
+    scene.clip_pool.edit()[large] = line_words(random, i);
     const BruteForce brute(scene);
     const Splat& splat = brute.splats()[large];
     std::vector<RayQuery> rays;
@@ -260,11 +260,11 @@ TEST(Splat, HitsBesideRimsOfEllipses) {
   for (int i = 0; i < 12; ++i) {
     const dvec3 normal = i < 3 ? dvec3(i == 0, i == 1, i == 2) : random_unit(random);
     Scene scene = lattice_scene({{dvec3(MIDDLE), normal, 5e5}}, test_material(MATERIAL_TWO_SIDED));
-    scene.clip_pool.assign(scene.data_pool.size(), CLIP_NONE);
+    scene.clip_pool.edit().assign(scene.data_pool.size(), CLIP_NONE);
     const std::size_t large = unpack_radius_squared(scene.data_pool[0]) > 100.0 ? 0 : 1;
     const uvec4& words = scene.data_pool[large];
     const dvec3 dir = glm::normalize(glm::cross(unpack_splat(words).normal, random_unit(random)));
-    scene.clip_pool[large] = pack_ellipse(words, dir, std::exp2(uniform(random, 1.0, 8.0)));
+    scene.clip_pool.edit()[large] = pack_ellipse(words, dir, std::exp2(uniform(random, 1.0, 8.0)));
     const BruteForce brute(scene);
     const Splat& splat = brute.splats()[large];
     const Ellipse ellipse = unpack_ellipse(scene.clip_pool[large], words);

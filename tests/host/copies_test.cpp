@@ -1,5 +1,5 @@
 /// When a device's leaves have copies of their splats.
-#include "engine/scene/copies.h"
+#include "engine/scene/pool/copies.h"
 
 #include <gtest/gtest.h>
 
@@ -30,12 +30,12 @@ TEST(Copies, FitToTheLastByte) {
 
 TEST(Copies, AreCountedFromTheScene) {
   Scene scene;
-  scene.data_pool.resize(5);
-  scene.reference_pool.resize(9);
-  scene.node_pool.resize(17);
+  scene.data_pool.edit().resize(5);
+  scene.reference_pool.edit().resize(9);
+  scene.node_pool.edit().resize(17);
   scene.begin_end = {0, 4, 9};
-  scene.field_pool.resize(5);
-  scene.clip_pool.resize(5);
+  scene.field_pool.edit().resize(5);
+  scene.clip_pool.edit().resize(5);
   const PoolCounts found = pool_counts(scene);
   EXPECT_EQ(found.splats, 5U);
   EXPECT_EQ(found.references, 9U);

@@ -15,10 +15,10 @@ Scene row_of(std::size_t count) {
   scene.root = {{500000.25, 5000000.5, -12.125}, 0.00123};
   for (std::size_t i = 1; i <= count; ++i) {
     const auto x = static_cast<double>(i);
-    scene.data_pool.push_back(pack_splat({{1000.0 * x, 7.0, 2000000.0},
-                                          glm::normalize(glm::dvec3(x, 2.0, -1.0)),
-                                          10.0 * x * x,
-                                          static_cast<std::uint32_t>(i % 3)}));
+    scene.data_pool.edit().push_back(pack_splat({{1000.0 * x, 7.0, 2000000.0},
+                                                 glm::normalize(glm::dvec3(x, 2.0, -1.0)),
+                                                 10.0 * x * x,
+                                                 static_cast<std::uint32_t>(i % 3)}));
   }
   return scene;
 }

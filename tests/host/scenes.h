@@ -36,7 +36,7 @@ inline Scene scan_scene(const OrientedPoints& points) {
   const glm::dvec3 size = high - low;
   scene.root = {low - size, 4e-6 * std::max({size.x, size.y, size.z})};
   for (const auto& [position, normal] : points)
-    scene.data_pool.push_back(pack_splat({scene.root.to_root(position), normal, 4.0, 0}));
+    scene.data_pool.edit().push_back(pack_splat({scene.root.to_root(position), normal, 4.0, 0}));
   return scene;
 }
 

@@ -13,13 +13,13 @@ namespace {
 Scene deep_scene() {
   Scene scene;
   const auto inner = [](std::uint32_t first) { return NODE_INNER << NODE_TAG_SHIFT | first; };
-  scene.node_pool.assign(33, NODE_EMPTY << NODE_TAG_SHIFT);
-  scene.node_pool[0] = inner(1);
-  scene.node_pool[1] = inner(9);
-  scene.node_pool[8] = inner(17);
-  scene.node_pool[24] = inner(25);
+  scene.node_pool.edit().assign(33, NODE_EMPTY << NODE_TAG_SHIFT);
+  scene.node_pool.edit()[0] = inner(1);
+  scene.node_pool.edit()[1] = inner(9);
+  scene.node_pool.edit()[8] = inner(17);
+  scene.node_pool.edit()[24] = inner(25);
   for (std::uint32_t leaf = 0; leaf < 8; ++leaf)
-    scene.node_pool[25 + leaf] = NODE_FILLED << NODE_TAG_SHIFT | leaf;
+    scene.node_pool.edit()[25 + leaf] = NODE_FILLED << NODE_TAG_SHIFT | leaf;
   return scene;
 }
 

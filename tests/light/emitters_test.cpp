@@ -26,7 +26,7 @@ TEST(Emitters, OnlyOfWhatIsSeenAndSendsOutLight) {
 
 TEST(Emitters, EachOnce) {
   Scene scene = glowing({{ball_at({}, 1.0, 50), grey(0.5F)}}, vec3(1.0F));
-  scene.data_pool.push_back(scene.data_pool.front());
+  scene.data_pool.edit().push_back(scene.data_pool.front());
   EXPECT_EQ(find_emitters(scene, scene.materials)->size(), 50U);
 }
 

@@ -21,7 +21,7 @@
 
 #include "engine/base/error.h"
 #include "engine/file/scene_file.h"
-#include "engine/scene/copies.h"
+#include "engine/scene/pool/copies.h"
 #include "engine/scene/splat.h"
 #include "tests/preprocess/shapes.h"
 #include "tests/temp_folder.h"
@@ -153,7 +153,7 @@ TEST(Build, CentrePolicyListsEverySplatOnce) {
   EXPECT_EQ(overlaps.data_pool, centres.data_pool);
   std::vector<std::uint32_t> once(centres.data_pool.size());
   std::iota(once.begin(), once.end(), 0U);
-  std::vector<std::uint32_t> listed = centres.reference_pool;
+  std::vector<std::uint32_t> listed(centres.reference_pool.begin(), centres.reference_pool.end());
   std::sort(listed.begin(), listed.end());
   EXPECT_EQ(listed, once);
 }

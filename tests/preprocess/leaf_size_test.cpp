@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/scene/splat.h"
 #include "preprocess/base/morton.h"
 #include "preprocess/build.h"
@@ -18,9 +20,11 @@ void expect_estimated(InputObject object, double references_share, double leaves
     BuildStats stats;
     const Scene scene = build_scene(test::input_of(object), params, 0, stats);
     SplatList splats;
-    splats.words = scene.data_pool;
-    for (const uvec4& words : splats.words)
-      splats.key.push_back(morton_key(glm::uvec3(unpack_splat(words).center)));
+    const auto key = [](const uvec4& words) { return morton_key(glm::uvec3(unpack_splat(words).center)); };
+    splats.words.assign(scene.data_pool.begin(), scene.data_pool.end());
+    std::sort(splats.words.begin(), splats.words.end(),
+              [&](const uvec4& a, const uvec4& b) { return key(a) < key(b); });
+    for (const uvec4& words : splats.words) splats.key.push_back(key(words));
     const PoolCounts found = pool_counts(scene), estimated = estimate_counts(splats, leaf_size);
     EXPECT_EQ(estimated.splats, found.splats);
     const auto expect_near = [](std::size_t a, std::size_t b, double share) {

@@ -107,7 +107,7 @@ TEST(LeafSlabs, HoldWhatDiscsHaveInTheCell) {
 
 TEST(LeafSlabs, AThinnerSlabIsNoticed) {
   Scene scene = scene_of(soup(true, 1), 10, Insertion::overlap);
-  for (std::uint32_t& word : scene.slab_pool) {
+  for (std::uint32_t& word : scene.slab_pool.edit()) {
     Slab slab = unpack_slab(word, 1);
     slab.low = slab.high = std::min(0.5 * (slab.low + slab.high), 1.0);
     word = pack_slab(slab, 1);
@@ -120,8 +120,8 @@ TEST(LeafSlabs, AShorterHalfIsNoticed) {
   const Scene scene = scene_of(soup(true, 1), 10, Insertion::overlap);
   EXPECT_EQ(tried_points(scene).unlisted, 0U);
   Scene lower = scene, upper = scene;
-  for (std::uint32_t& word : lower.slab_pool) word &= ~0x0F000000U;
-  for (std::uint32_t& word : upper.slab_pool) word |= 0xF0000000U;
+  for (std::uint32_t& word : lower.slab_pool.edit()) word &= ~0x0F000000U;
+  for (std::uint32_t& word : upper.slab_pool.edit()) word |= 0xF0000000U;
   EXPECT_GT(tried_points(lower).unlisted, 1000U);
   EXPECT_GT(tried_points(upper).unlisted, 1000U);
   EXPECT_NE(found_in_slabs(lower).find("lower half leaves out"), std::string::npos);

@@ -128,9 +128,9 @@ TEST_P(WriteAgain, UpSystemAndScansAreKeptBesideWhatWasLeftOut) {
 TEST(WritePly, AnyWordsOfFieldsClipsAndEllipsesAreKept) {
   Scene scene = built(test::input_of(test::even_sphere(3000)));
   ASSERT_FALSE(scene.field_pool.empty());
-  scene.clip_pool.assign(scene.data_pool.size(), CLIP_NONE);
-  scene.clip_pool[7] = pack_ellipse(scene.data_pool[7], {1.0, 0.0, 0.0}, 3.0);
-  scene.field_pool[9] = pack_lean({0.25, 0.0, 0.0}, unpack_splat(scene.data_pool[9]).normal);
+  scene.clip_pool.edit().assign(scene.data_pool.size(), CLIP_NONE);
+  scene.clip_pool.edit()[7] = pack_ellipse(scene.data_pool[7], {1.0, 0.0, 0.0}, 3.0);
+  scene.field_pool.edit()[9] = pack_lean({0.25, 0.0, 0.0}, unpack_splat(scene.data_pool[9]).normal);
   const Scene again = read_again(scene);
   EXPECT_TRUE(again.data_pool == scene.data_pool);
   EXPECT_TRUE(again.clip_pool == scene.clip_pool);
@@ -238,7 +238,7 @@ TEST(WriteLas, SystemsAreTextOrKeys) {
 
 TEST(WriteVtp, VtkFindsAllOfIt) {
   Scene scene = built(corner_scan());
-  scene.color_pool.assign(scene.data_pool.size(), pack_color({1.0F, 0.0F, 0.5F}));
+  scene.color_pool.edit().assign(scene.data_pool.size(), pack_color({1.0F, 0.0F, 0.5F}));
   const TempFolder folder;
   const Input input = read_input({written(scene, folder, "a.vtp")}, {});
   const Points& points = input.objects.at(0).points;

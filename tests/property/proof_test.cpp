@@ -35,7 +35,7 @@ std::size_t exceptions_with_slab_raised(std::uint32_t steps) {
   const BruteForce brute(scene);
   const Settings settings;
   const std::vector<RayQuery> rays = random_primary_rays(scene, 2000, 1);
-  scene.slab_pool.at(0) += steps << 12U;
+  scene.slab_pool.edit().at(0) += steps << 12U;
   const Agreement found =
       agreement_of(brute, all_nearest(brute, rays, settings), twin_intersect(scene, rays, settings));
   EXPECT_GT(found.hits, 100U);

@@ -46,7 +46,7 @@ ScanFile read_file(const std::filesystem::path& file, bool keep) {
 std::uint64_t count_of_class(const Points& points, std::uint8_t code) {
   const Column* column = find_column(points.columns, COLUMN_CLASS);
   if (column == nullptr) return 0;
-  const auto& list = std::get<std::vector<std::uint8_t>>(column->values);
+  const auto& list = std::get<Pool<std::uint8_t>>(column->values);
   return static_cast<std::uint64_t>(std::count(list.begin(), list.end(), code));
 }
 

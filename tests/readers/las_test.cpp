@@ -233,8 +233,8 @@ TEST(Las, ExtraBytesOfAllRecordsWhenAskedFor) {
   EXPECT_EQ(number(points, "normal[2]", 1), 1.0);
   EXPECT_EQ(find_column(points.columns, "beyond"), nullptr);
   ASSERT_NE(find_column(points.columns, "normal[1]"), nullptr);
-  EXPECT_TRUE(std::holds_alternative<std::vector<float>>(find_column(points.columns, "normal[1]")->values));
-  EXPECT_TRUE(std::holds_alternative<std::vector<double>>(find_column(points.columns, "height")->values));
+  EXPECT_TRUE(std::holds_alternative<Pool<float>>(find_column(points.columns, "normal[1]")->values));
+  EXPECT_TRUE(std::holds_alternative<Pool<double>>(find_column(points.columns, "height")->values));
 }
 
 std::string geo_keys(const std::vector<std::array<std::uint16_t, 2>>& keys) {

@@ -39,7 +39,7 @@ bool is_in_region(const dvec3& place, const std::vector<vec4>& planes, std::size
 }  // namespace
 
 BruteForce::BruteForce(const Scene& scene) : root_(scene.root), materials_(scene.materials) {
-  clips_ = scene.clip_pool;
+  clips_.assign(scene.clip_pool.begin(), scene.clip_pool.end());
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     const uvec4& words = scene.data_pool[i];
     words_.push_back(words);

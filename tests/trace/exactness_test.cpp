@@ -174,7 +174,7 @@ TEST(Exactness, ClipLinesThatAreNotKeptAreNoticed) {
   const std::vector<RayQuery> rays = random_primary_rays(scene, 20000, 5);
   const auto truth = all_nearest(brute, rays, settings);
   EXPECT_EQ(agreement_of(brute, truth, gpu_intersect(scene, rays, settings)).exceptions(), 0U);
-  for (std::uint32_t& clip : scene.clip_pool) clip = clip == CLIP_NONE ? clip : clip + 0x100;
+  for (std::uint32_t& clip : scene.clip_pool.edit()) clip = clip == CLIP_NONE ? clip : clip + 0x100;
   EXPECT_GT(agreement_of(brute, truth, gpu_intersect(scene, rays, settings)).exceptions(), 0U)
       << "lines a step further out";
 }
@@ -190,7 +190,7 @@ Scene with_ellipses(Scene scene) {
     const glm::dvec3 out = glm::cross(splat.normal, dir);
     const std::array<ClipEdge, 1> edge{{{out, splat.center + 0.5 * std::sqrt(splat.radius_squared) * out}}};
     const std::uint32_t clip = unit(random) < 0.3 ? pack_clip(words, edge) : CLIP_NONE;
-    scene.clip_pool.push_back(pack_ellipse(words, dir, std::exp(5.0 * unit(random)), clip));
+    scene.clip_pool.edit().push_back(pack_ellipse(words, dir, std::exp(5.0 * unit(random)), clip));
   }
   return scene;
 }
@@ -246,7 +246,7 @@ TEST(Exactness, EllipsesTurnedOrShortenedAreNoticed) {
   EXPECT_EQ(exceptions(scene), 0U);
   for (const std::uint32_t step : {1U << 16, 1U << 23}) {  // of the direction, of the factor
     Scene changed = scene;
-    for (std::uint32_t& clip : changed.clip_pool) clip ^= is_ellipse(clip) ? step : 0U;
+    for (std::uint32_t& clip : changed.clip_pool.edit()) clip ^= is_ellipse(clip) ? step : 0U;
     EXPECT_GT(exceptions(changed), 0U) << step;
   }
 }
@@ -385,7 +385,7 @@ TEST(Exactness, EmptySpaceThatIsTooWideIsNoticed) {
   const Settings settings;
   const BruteForce brute(scene);
   const std::vector<RayQuery> rays = random_primary_rays(scene, 20000, 9);
-  for (std::uint32_t& word : scene.node_pool)
+  for (std::uint32_t& word : scene.node_pool.edit())
     if (word >> NODE_TAG_SHIFT == NODE_EMPTY) word |= EMPTY_STEPS_MASK;
   const Agreement agreement =
       agreement_of(brute, all_nearest(brute, rays, settings), gpu_intersect(scene, rays, settings));

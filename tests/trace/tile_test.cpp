@@ -133,12 +133,13 @@ TEST(Tile, CloudsOfDiscsOfAllSizes) {
   }
   Scene scene = scene_of({{points, test_material(MATERIAL_TWO_SIDED)}});
   std::uniform_real_distribution<double> exponent(std::log(2.0), std::log(3e5));
-  for (uvec4& words : scene.data_pool) {
+  for (uvec4& words : scene.data_pool.edit()) {
     Splat splat = unpack_splat(words);
     const double radius = std::exp(exponent(random));
     splat.radius_squared = radius * radius;
     words = pack_splat(splat);
   }
+  scene.wide_nodes = {};
   Settings settings;
   settings.samples = 1;
   expect_same_pictures(scene, cameras(), settings);

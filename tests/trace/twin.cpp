@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "engine/scene/clip.h"
-#include "engine/scene/copies.h"
+#include "engine/scene/pool/copies.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
@@ -45,8 +45,15 @@ struct Feature {
 #define WATCHES false
 #define PANES false
 
+/// Throws where the index is not in the pool.
+template <class Value>
+const Value& element_at(const Pool<Value>& pool, uint index) {
+  if (index >= pool.size()) throw std::out_of_range("an index beyond a pool");
+  return pool[index];
+}
+
 #define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
-  Value reader(uint index) { return bound->pool.at(index); }
+  Value reader(uint index) { return element_at(bound->pool, index); }
 #define SPLATRAY_MADE_POOL(place, NAME, pool, Value, reader, ABOUT) \
   Value reader(uint index) { return made.pool.at(index); }
 #include "shaders/pools.glsl"

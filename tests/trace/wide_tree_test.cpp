@@ -61,12 +61,13 @@ OrientedPoints random_points(std::size_t count, std::uint64_t seed) {
 void set_radii(Scene& scene, double least, double most) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> exponent(std::log(least), std::log(most));
-  for (uvec4& words : scene.data_pool) {
+  for (uvec4& words : scene.data_pool.edit()) {
     Splat splat = unpack_splat(words);
     const double radius = std::exp(exponent(random));
     splat.radius_squared = radius * radius;
     words = pack_splat(splat);
   }
+  scene.wide_nodes = {};
 }
 
 Scene scene_with_radii(OrientedPoints points, std::uint32_t flags, double radius) {
@@ -114,7 +115,7 @@ TEST(WideTree, NormalFieldsAndConstantTerms) {
   for (std::size_t i = 0; i < scene.field_pool.size(); ++i) {
     if (random() % 3 == 0) continue;
     const glm::dvec3 lean(component(random), component(random), component(random));
-    scene.field_pool[i] = pack_lean(lean, unpack_splat(scene.data_pool[i]).normal);
+    scene.field_pool.edit()[i] = pack_lean(lean, unpack_splat(scene.data_pool[i]).normal);
   }
   ASSERT_TRUE(any_leans(scene.field_pool));
   EXPECT_GT(different_bits(before, twin_intersect(scene, rays, {})), 5000U);
@@ -131,7 +132,7 @@ TEST(WideTree, SeesAnotherSceneAsAnother) {
   const std::vector<RayHit> expected = twin_intersect(scene, rays, {});
   Splat moved = unpack_splat(scene.data_pool[250]);
   moved.radius_squared *= 0.25;
-  scene.data_pool[250] = pack_splat(moved);
+  scene.data_pool.edit()[250] = pack_splat(moved);
   EXPECT_GT(different_bits(host_intersect(scene, rays, {}), expected), 0U);
 }
 

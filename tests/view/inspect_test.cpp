@@ -7,6 +7,7 @@
 
 #include "app/library/picture/aimed_ray.h"
 #include "engine/scene/splat.h"
+#include "engine/scene/wide/wide_tree.h"
 #include "preprocess/build.h"
 #include "tests/view/documents.h"
 
@@ -81,13 +82,13 @@ TEST(InspectTest, FindsEachSplatByItsWords) {
   RayHit hit{};
   for (std::size_t i = 0; i < scene.data_pool.size(); ++i) {
     hit.first = scene.data_pool[i];
-    ASSERT_EQ(find_splat(scene, hit), i);
+    ASSERT_EQ(find_splat(scene, hit.first), i);
   }
   hit.first.w ^= 1U << 16U;  // another radius in the same place
-  EXPECT_FALSE(find_splat(scene, hit).has_value());
+  EXPECT_FALSE(find_splat(scene, hit.first).has_value());
   hit.first = uvec4(0);
-  EXPECT_FALSE(find_splat(scene, hit).has_value());
-  EXPECT_FALSE(find_splat(Scene{}, hit).has_value());
+  EXPECT_FALSE(find_splat(scene, hit.first).has_value());
+  EXPECT_FALSE(find_splat(Scene{}, hit.first).has_value());
 }
 
 TEST(InspectTest, DescribesTheSplatInWorldCoordinates) {
@@ -128,7 +129,8 @@ TEST(InspectTest, FindsTheLeafOfEverySplatsCentre) {
   for (std::uint32_t reference = 0; reference < scene.reference_pool.size(); ++reference) {
     std::uint32_t depth = 0, references = 0;
     find_leaf(scene, 0, 0, reference, depth, references);
-    const auto inspected = inspect(scene, view.camera, query, hit_of(query, scene.data_pool[reference]));
+    const auto inspected =
+        inspect(scene, view.camera, query, hit_of(query, scene.data_pool[scene.reference_pool[reference]]));
     ASSERT_TRUE(inspected.has_value());
     EXPECT_EQ(inspected->leaf_depth, depth);
     EXPECT_EQ(inspected->leaf_references, references);

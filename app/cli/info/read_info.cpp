@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ranges>
+#include <span>
 
 #include "app/cli/info/file_info.h"
 #include "app/library/request/request.h"
@@ -71,8 +72,8 @@ void add_points(FileInfo& info, const Points& points) {
   for (const Column& column : points.columns) add_column(info, column);
 }
 
-void add_scans(FileInfo& info, const std::vector<Station>& stations,
-               const std::vector<std::uint16_t>& station, std::uint64_t points) {
+void add_scans(FileInfo& info, const std::vector<Station>& stations, std::span<const std::uint16_t> station,
+               std::uint64_t points) {
   const std::size_t first = info.scans.size();
   for (const Station& one : stations) info.scans.push_back({one.name, 0, 0, one});
   for (const std::uint16_t s : station)
@@ -122,8 +123,8 @@ void add_scene(FileInfo& info, const Scene& scene) {
              [](std::uint32_t color) { return most(unpack_color(color)); });
   for (const Column& column : scene.columns) add_column(info, column);
   const Column* scan = find_column(scene.columns, COLUMN_SCAN);
-  const auto* station = scan == nullptr ? nullptr : std::get_if<std::vector<std::uint16_t>>(&scan->values);
-  add_scans(info, scene.stations, station == nullptr ? std::vector<std::uint16_t>{} : *station, info.points);
+  const auto* station = scan == nullptr ? nullptr : std::get_if<Pool<std::uint16_t>>(&scan->values);
+  add_scans(info, scene.stations, station == nullptr ? Pool<std::uint16_t>() : *station, info.points);
   for (const std::string& name : scene.object_names) info.objects.push_back({name});
   for_each_splat(scene, [&](std::size_t, const SceneSplat& splat) { ++info.objects[splat.object()].points; });
   info.lights = scene.lights.size();

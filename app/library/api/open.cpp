@@ -3,6 +3,7 @@
 #include "app/library/api/request_impl.h"
 #include "app/library/api/scene_impl.h"
 #include "engine/base/one_line.h"
+#include "engine/scene/wide/wide_tree.h"
 
 namespace splatray::api {
 namespace {
@@ -37,6 +38,8 @@ Scene open(std::span<const std::filesystem::path> files, const Request& asked, c
     const LoadListener listener{std::ref(relay),
                                 [&](const std::string& note) { impl->notes.push_back(note); }};
     impl->loaded = load_scene(request, listener);
+    // Who traces rays is told each one's splat, which is found by the tree that older files are without.
+    if (!has_wide_tree(impl->loaded.scene)) add_wide_tree(impl->loaded.scene, request.source.threads);
     impl->asked = std::move(request);
     return SceneAccess::make(std::move(impl));
   });

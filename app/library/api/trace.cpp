@@ -4,6 +4,7 @@
 #include "app/library/api/guard.h"
 #include "app/library/api/scene_impl.h"
 #include "app/library/picture/aimed_ray.h"
+#include "engine/scene/wide/wide_tree.h"
 
 namespace splatray::api {
 namespace {
@@ -60,7 +61,7 @@ void keep(const Scene::Impl& impl, const RayHit& hit, double start, std::size_t 
   hits.t[ray] = (start + static_cast<double>(hit.t)) * scene.root.unit_world;
   hits.normal[ray] = array(hit.normal);
   hits.object[ray] = static_cast<std::int32_t>(hit.object);
-  const std::optional<std::size_t> splat = find_splat(scene, hit);
+  const std::optional<std::size_t> splat = find_splat(scene, hit.first);
   if (!splat) return;
   hits.splat[ray] = static_cast<std::int64_t>(*splat);
   if (hit.object < impl.has_points.size() && impl.has_points[hit.object])

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
-
-#include "engine/scene/scene_splat.h"
-#include "preprocess/base/morton.h"
 
 namespace splatray {
 
@@ -30,20 +26,6 @@ std::optional<AimedRay> aim_ray(const RootTransform& root, const glm::dvec3& ori
   aimed.query.from_object = NO_OBJECT;
   aimed.start = enter;
   return aimed;
-}
-
-std::optional<std::size_t> find_splat(const Scene& scene, const RayHit& hit) {
-  // Splats lie in Z-order of their centres.
-  const auto key = [](const SceneSplat& splat) { return morton_key(glm::uvec3(splat.in_root().center)); };
-  const auto key_at = [&](std::size_t i) { return key(splat_at(scene, i)); };
-  const std::uint64_t wanted = key({scene, hit.first});
-  const std::size_t count = splat_count(scene);
-  const auto indices = std::views::iota(std::size_t{0}, count);
-  const auto first = std::ranges::lower_bound(indices, wanted, {}, key_at);
-  auto i = static_cast<std::size_t>(first - indices.begin());
-  while (i < count && key_at(i) == wanted && splat_at(scene, i).words() != hit.first) ++i;
-  if (i == count || key_at(i) != wanted) return {};
-  return i;
 }
 
 }  // namespace splatray

@@ -1,4 +1,4 @@
-/// Rays from anywhere in the world as the tracer takes them, and the splats that they meet.
+/// Rays from anywhere in the world as the tracer takes them.
 #pragma once
 #include <optional>
 
@@ -15,9 +15,5 @@ struct AimedRay {
 /// Begins a ray, world space, `dir` unit, where it enters the root cube, as float32 is finest there; nothing for one that passes it.
 [[nodiscard]] std::optional<AimedRay> aim_ray(const RootTransform& root, const glm::dvec3& origin_world,
                                               const glm::dvec3& dir);
-
-/// The index of the splat that a ray met; nothing where the scene has none of its words. Splats of the same words lie in the same
-/// place, and the first of them counts.
-[[nodiscard]] std::optional<std::size_t> find_splat(const Scene& scene, const RayHit& hit);
 
 }  // namespace splatray

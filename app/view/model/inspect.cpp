@@ -5,6 +5,7 @@
 #include "app/library/picture/aimed_ray.h"
 #include "engine/scene/scene_splat.h"
 #include "engine/scene/tree.h"
+#include "engine/scene/wide/wide_tree.h"
 
 namespace splatray {
 namespace {
@@ -59,7 +60,7 @@ std::optional<Inspected> inspect(const Scene& scene, const Camera& camera, const
   inspected.leaf_depth = leaf.depth;
   inspected.leaf_references = leaf.references;
   inspected.hit_world = scene.root.to_world(hit_root);
-  if (const auto index = find_splat(scene, hit); index && !scene.columns.empty())
+  if (const auto index = find_splat(scene, hit.first); index && !scene.columns.empty())
     inspected.attributes = attributes_of(scene, *index);
   inspected.distance_world = glm::length(inspected.hit_world - camera.eye);
   return inspected;

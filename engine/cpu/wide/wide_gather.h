@@ -34,13 +34,14 @@ WideBox nearest_box(WideTile& tile) {
 Lanes greatest(const WideNode& node, std::uint32_t from, const std::array<float, 3>& normal, float begin) {
   Lanes sum = of(begin);
   for (std::uint32_t axis = 0; axis < 3; ++axis)
-    sum = hn::MulAdd(of(normal[axis]), load(node.bounds[axis][normal[axis] > 0.0F ? 1 : 0], from), sum);
+    sum =
+        hn::MulAdd(of(normal[axis]), load_bounds(node.bounds[axis][normal[axis] > 0.0F ? 1 : 0], from), sum);
   return sum;
 }
 
 /// Puts the children of a node that rays of the tile may meet onto the heap.
 void open_node(const WideView& tree, const WideBox& box, WideTile& tile) {
-  const WideNode& node = tree.nodes[tree.level_begin[box.level] + box.number];
+  const WideNode& node = tree.nodes[tree.levels.begin[box.level] + box.number];
   const std::array<float, 3> back{-tile.ahead[0], -tile.ahead[1], -tile.ahead[2]};
   const float middle_depth =
       tile.ahead[0] * tile.middle[0] + tile.ahead[1] * tile.middle[1] + tile.ahead[2] * tile.middle[2];
@@ -53,6 +54,7 @@ void open_node(const WideView& tree, const WideBox& box, WideTile& tile) {
     hn::Store(hn::Neg(greatest(node, from, back, middle_depth + tile.slack)), TAG, depth.data() + from);
     met |= there << from;
   }
+  met &= there_in(tree.levels, box.level, box.number);
   for (; met != 0; met &= met - 1) {
     if (tile.boxes == TILE_BOXES) {
       tile.full = true;
@@ -61,7 +63,8 @@ void open_node(const WideView& tree, const WideBox& box, WideTile& tile) {
     const auto child = static_cast<std::uint32_t>(__builtin_ctz(met));
     const WideBox next{depth[child], box.level - 1, box.number * WIDE + child};
     if (next.level == 0)
-      for (const WideWords& words : tree.leaves[next.number].words) __builtin_prefetch(&words);
+      for (std::size_t i = 0; i < 4; ++i)
+        __builtin_prefetch(tree.splats + std::size_t{4} * WIDE * next.number + i * WIDE);
     tile.box[tile.boxes] = next;
     sift_up(tile, tile.boxes++);
   }
@@ -118,7 +121,7 @@ void add_to_list(const WideDiscs& discs, std::uint32_t lane, std::uint32_t splat
 /// Puts the splats of a leaf into the lists of the pixels that may see them.
 void open_leaf(const WideView& tree, std::uint32_t number, WideTile& tile) {
   WideDiscs discs;
-  decode(tree.leaves[number], discs);
+  const std::uint32_t there = decode_leaf(tree, number, discs);
   Reach columns, rows;
   alignas(64) WideFloats nearest;
   std::uint32_t seen = 0;
@@ -154,7 +157,7 @@ void open_leaf(const WideView& tree, std::uint32_t number, WideTile& tile) {
     const auto met = hn::And(hn::And(filled(columns), filled(rows)), w_high > of(0.0F));
     seen |= bits_of(TAG, met) << from;
   }
-  if (number == tree.last_leaf) seen &= tree.last_mask;
+  seen &= there;
   for (; seen != 0; seen &= seen - 1) {
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(seen));
     for (std::uint32_t y = rows.first[lane]; y < rows.last[lane]; ++y)
@@ -167,8 +170,8 @@ void open_tile(const WideView& tree, WideTile& tile) {
   tile.full = false;
   tile.parts = tile.boxes = 0;
   for (std::uint32_t& count : tile.count) count = 0;
-  if (tree.levels == 0) return;
-  tile.box[0] = {-3e38F, tree.levels, 0};
+  if (tree.levels.levels == 0) return;
+  tile.box[0] = {-3e38F, tree.levels.levels, 0};
   tile.boxes = 1;
 }
 

@@ -37,6 +37,10 @@ std::uint32_t bits_of(AnyTag tag, hn::Mask<AnyTag> mask) {
 }
 
 Lanes load(const WideFloats& values, std::uint32_t from) { return hn::Load(TAG, values.data() + from); }
+/// Bounds of a node, which may lie anywhere in a file.
+Lanes load_bounds(const WideFloats& values, std::uint32_t from) {
+  return hn::LoadU(TAG, values.data() + from);
+}
 
 Doubles load_double(const WideFloats& values, std::uint32_t from) {
   return hn::PromoteTo(DOUBLE_TAG, hn::Load(hn::Rebind<float, DoubleTag>(), values.data() + from));
@@ -50,8 +54,8 @@ std::uint32_t meet_boxes(const WideNode& node, const WideWalk& walk, WideFloats&
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       const std::uint32_t down = walk.inverse[axis] < 0.0F ? 1 : 0;
       const Lanes inverse = hn::Set(TAG, walk.inverse[axis]), begin = hn::Set(TAG, walk.begin[axis]);
-      near = hn::Max(near, hn::MulSub(load(node.bounds[axis][down], from), inverse, begin));
-      far = hn::Min(far, hn::MulSub(load(node.bounds[axis][1 - down], from), inverse, begin));
+      near = hn::Max(near, hn::MulSub(load_bounds(node.bounds[axis][down], from), inverse, begin));
+      far = hn::Min(far, hn::MulSub(load_bounds(node.bounds[axis][1 - down], from), inverse, begin));
     }
     hn::Store(near, TAG, t.data() + from);
     met |= bits_of(TAG, near <= far) << from;
@@ -81,19 +85,41 @@ Lanes decode_radius_squared(Words word) {
                      hn::Or(hn::ShiftRight<2>(masked(word, 0xFFFF0000U)), hn::Set(WORD_TAG, 0x40000000U)));
 }
 
-void decode(const WideLeaf& leaf, WideDiscs& splats) {
+/// Splats of four words each.
+void decode(const std::uint32_t* words, WideDiscs& splats) {
   for (std::uint32_t from = 0; from < WIDE; from += LANES) {
-    const auto word = [&](std::uint32_t i) { return hn::Load(WORD_TAG, &leaf.words[i][from]); };
-    const Words y = hn::Or(hn::ShiftLeft<10>(masked(word(0), 0x7FFU)), hn::ShiftRight<22>(word(1)));
-    hn::Store(number(hn::ShiftRight<11>(word(0))), TAG, &splats.center[0][from]);
+    Words x_y, y_z, axes, radius_object;
+    hn::LoadInterleaved4(WORD_TAG, words + std::size_t{4} * from, x_y, y_z, axes, radius_object);
+    const Words y = hn::Or(hn::ShiftLeft<10>(masked(x_y, 0x7FFU)), hn::ShiftRight<22>(y_z));
+    hn::Store(number(hn::ShiftRight<11>(x_y)), TAG, &splats.center[0][from]);
     hn::Store(number(y), TAG, &splats.center[1][from]);
-    hn::Store(number(masked(word(1), 0x1FFFFFU)), TAG, &splats.center[2][from]);
-    const Vectors normal = decode_normal(word(2));
+    hn::Store(number(masked(y_z, 0x1FFFFFU)), TAG, &splats.center[2][from]);
+    const Vectors normal = decode_normal(axes);
     hn::Store(normal.x, TAG, &splats.normal[0][from]);
     hn::Store(normal.y, TAG, &splats.normal[1][from]);
     hn::Store(normal.z, TAG, &splats.normal[2][from]);
-    hn::Store(decode_radius_squared(word(3)), TAG, &splats.radius_squared[from]);
+    hn::Store(decode_radius_squared(radius_object), TAG, &splats.radius_squared[from]);
   }
+}
+
+/// Which of the splats of a leaf, or of the children of a node, there are, a bit each.
+std::uint32_t there_in(const WideLevels& tree, std::uint32_t level, std::uint32_t number) {
+  return number == tree.last[level] ? tree.last_mask[level] : (1U << WIDE) - 1U;
+}
+
+/// The splats of a leaf; returns which there are. In place of others the last leaf has zeros.
+std::uint32_t decode_leaf(const WideView& tree, std::uint32_t number, WideDiscs& splats) {
+  const std::uint32_t* const words = tree.splats + std::size_t{4} * WIDE * number;
+  const std::uint32_t there = there_in(tree.levels, 0, number);
+  if (there == (1U << WIDE) - 1U) {
+    decode(words, splats);
+    return there;
+  }
+  std::uint32_t filled[4 * WIDE] = {};
+  for (std::uint32_t i = 0; i < 4 * WIDE; ++i)
+    if ((there >> i / 4 & 1U) != 0) filled[i] = words[i];
+  decode(filled, splats);
+  return there;
 }
 
 /// Splats of a leaf that the ray may hit, as splat_maybe_hit of shaders/primitive/disc.glsl decides it.
@@ -174,7 +200,8 @@ std::uint32_t step(const WideView& tree, WideWalk& walk) {
     while (box.level > 0) {
       ++walk.nodes;
       alignas(64) WideFloats t;
-      const std::uint32_t met = meet_boxes(tree.nodes[tree.level_begin[box.level] + box.number], walk, t);
+      const std::uint32_t met = meet_boxes(tree.nodes[tree.levels.begin[box.level] + box.number], walk, t) &
+                                there_in(tree.levels, box.level, box.number);
       if (met == 0) break;
       if ((met & (met - 1)) == 0) {
         box = {0.0F, box.level - 1, box.number * WIDE + static_cast<std::uint32_t>(__builtin_ctz(met))};
@@ -186,9 +213,8 @@ std::uint32_t step(const WideView& tree, WideWalk& walk) {
     if (box.level > 0) continue;
     ++walk.leaves;
     WideDiscs leaf;
-    decode(tree.leaves[box.number], leaf);
-    std::uint32_t met = maybe_hits(leaf, walk);
-    if (box.number == tree.last_leaf) met &= tree.last_mask;
+    const std::uint32_t there = decode_leaf(tree, box.number, leaf);
+    std::uint32_t met = maybe_hits(leaf, walk) & there;
     if (met != 0) met = meet_splats(leaf, met, walk);
     walk.leaf = box.number;
     if (met != 0) return met;

@@ -4,30 +4,14 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/scene/wide/wide_node.h"
 #include "shaders/lang/hit_numbers.h"
 
 namespace splatray {
 
-/// Children of a node, splats of a leaf.
-inline constexpr std::uint32_t WIDE = 16;
-/// Levels of nodes: 16^7 leaves hold more than 2^32 splats.
-inline constexpr std::uint32_t WIDE_LEVELS = 7;
-
 /// A number of each child or splat.
-using WideFloats = std::array<float, WIDE>;
 using WideDoubles = std::array<double, WIDE>;
 using WideWords = std::array<std::uint32_t, WIDE>;
-
-/// The boxes of a node's children, lattice units, a little too large, so that float32 loses no hit. Those that are not there
-/// have a lower bound above the upper one.
-struct alignas(64) WideNode {
-  std::array<std::array<WideFloats, 2>, 3> bounds;  ///< of each axis, lower and upper
-};
-
-/// Splats: their first words, their second ones and so on. Without others the last leaf is filled up with zeros.
-struct alignas(64) WideLeaf {
-  std::array<WideWords, 4> words;
-};
 
 /// Splats as tests read them, all exact.
 struct alignas(64) WideDiscs {
@@ -36,16 +20,11 @@ struct alignas(64) WideDiscs {
   WideFloats radius_squared;         ///< lattice units^2
 };
 
-/// The tree as a walk reads it.
+/// The tree as a walk reads it: what boxes say may lead it to the wrong splats, but nowhere else.
 struct WideView {
   const WideNode* nodes = nullptr;
-  /// Leaf n has splats WIDE n to WIDE n + WIDE - 1.
-  const WideLeaf* leaves = nullptr;
-  /// Level n's first node; of the level of leaves, 0, none.
-  std::array<std::uint32_t, WIDE_LEVELS + 1> level_begin{};
-  std::uint32_t levels = 0;  ///< of nodes; 0 = no splats
-  std::uint32_t last_leaf = 0;
-  std::uint32_t last_mask = 0;  ///< its splats, a bit each
+  const std::uint32_t* splats = nullptr;  ///< four words each
+  WideLevels levels;
 };
 
 /// A box that a ray meets at t.

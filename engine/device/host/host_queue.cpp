@@ -6,6 +6,7 @@
 
 #include "engine/base/stopwatch.h"
 #include "engine/cpu/run_groups.h"
+#include "engine/scene/wide/wide_tree.h"
 
 namespace splatray {
 namespace {
@@ -27,7 +28,11 @@ Kernel kernel_of(Program program) {
 
 HostBuffer::HostBuffer(std::uint64_t bytes)
     : Buffer(std::max(bytes, LEAST_HOST_BYTES)),
-      bytes_(std::make_unique_for_overwrite<std::byte[]>(size())) {}
+      own_(std::make_unique_for_overwrite<std::byte[]>(size())),
+      data_(own_.get()) {}
+
+HostBuffer::HostBuffer(std::span<const std::byte> bytes, std::shared_ptr<const void> keeper)
+    : Buffer(bytes.size()), keeper_(std::move(keeper)), data_(const_cast<std::byte*>(bytes.data())) {}
 
 HostTexture::HostTexture(const Environment& environment)
     : width_(environment.width),
@@ -40,6 +45,11 @@ HostTexture::HostTexture(const Environment& environment)
 void HostBindings::bind(std::uint32_t binding, const Buffer& buffer, [[maybe_unused]] std::uint32_t page) {
   assert(page == 0);
   work_.bound[binding] = static_cast<const HostBuffer&>(buffer).data();
+  if (binding == BIND_DATA_POOL)
+    work_.tree.splats = reinterpret_cast<const std::uint32_t*>(work_.bound[binding]);
+  if (binding == BIND_MATERIALS)
+    work_.last_material =
+        static_cast<std::uint32_t>(std::max(buffer.size() / sizeof(Material), std::uint64_t{1}) - 1);
 }
 
 void HostBindings::bind(const DeviceTexture& texture) {
@@ -49,8 +59,10 @@ void HostBindings::bind(const DeviceTexture& texture) {
   work_.environment_height = environment.height();
 }
 
-void HostBindings::bind(const SplatTree& tree) {
-  work_.tree = static_cast<const HostTree&>(tree).tree().view();
+void HostBindings::bind_wide_tree(const Buffer& nodes, std::uint64_t splats) {
+  work_.tree.nodes = reinterpret_cast<const WideNode*>(static_cast<const HostBuffer&>(nodes).data());
+  work_.tree.levels = wide_levels(splats);
+  work_.last_splat = static_cast<std::uint32_t>(std::max(splats, std::uint64_t{1}) - 1);
 }
 
 std::unique_ptr<Buffer> HostQueue::make_buffer(std::uint64_t bytes) {
@@ -66,9 +78,9 @@ std::unique_ptr<Bindings> HostQueue::make_bindings([[maybe_unused]] const Paging
   return std::make_unique<HostBindings>();
 }
 
-std::unique_ptr<SplatTree> HostQueue::make_tree(std::span<const uvec4> splats,
-                                                std::vector<std::uint32_t>& order) {
-  return std::make_unique<HostTree>(WideTree(splats, threads_, order));
+std::unique_ptr<Buffer> HostQueue::lend(std::span<const std::byte> bytes,
+                                        std::shared_ptr<const void> keeper) {
+  return std::make_unique<HostBuffer>(bytes, std::move(keeper));
 }
 
 void HostQueue::upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) {

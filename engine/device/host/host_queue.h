@@ -1,7 +1,6 @@
 /// Memory of the host, and the programs as C++ that run on its threads.
 #pragma once
 #include "engine/cpu/kernel.h"
-#include "engine/cpu/wide/wide_tree.h"
 #include "engine/device/queue.h"
 
 namespace splatray {
@@ -9,10 +8,14 @@ namespace splatray {
 class HostBuffer final : public Buffer {
  public:
   explicit HostBuffer(std::uint64_t bytes);
-  [[nodiscard]] std::byte* data() const { return bytes_.get(); }
+  /// Bytes that are only read, as Queue::lend has them.
+  HostBuffer(std::span<const std::byte> bytes, std::shared_ptr<const void> keeper);
+  [[nodiscard]] std::byte* data() const { return data_; }
 
  private:
-  std::unique_ptr<std::byte[]> bytes_;
+  std::unique_ptr<std::byte[]> own_;
+  std::shared_ptr<const void> keeper_;  ///< of bytes that are not its own
+  std::byte* data_;
 };
 
 class HostTexture final : public DeviceTexture {
@@ -28,23 +31,13 @@ class HostTexture final : public DeviceTexture {
   HostBuffer texels_;
 };
 
-class HostTree final : public SplatTree {
- public:
-  explicit HostTree(WideTree tree) : tree_(std::move(tree)) {}
-  [[nodiscard]] std::uint64_t bytes() const override { return tree_.bytes(); }
-  [[nodiscard]] const WideTree& tree() const { return tree_; }
-
- private:
-  WideTree tree_;
-};
-
 /// The arrays that kernels read and write.
 class HostBindings final : public Bindings {
  public:
   using Bindings::bind;
   void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) override;
   void bind(const DeviceTexture& texture) override;
-  void bind(const SplatTree& tree) override;
+  void bind_wide_tree(const Buffer& nodes, std::uint64_t splats) override;
 
   /// By binding; constants and parameters are left.
   [[nodiscard]] const KernelWork& work() const { return work_; }
@@ -62,8 +55,9 @@ class HostQueue final : public Queue {
   [[nodiscard]] std::unique_ptr<Buffer> make_buffer(std::uint64_t bytes) override;
   [[nodiscard]] std::unique_ptr<DeviceTexture> make_texture(const Environment& environment) override;
   [[nodiscard]] std::unique_ptr<Bindings> make_bindings(const Paging& paging) override;
-  [[nodiscard]] std::unique_ptr<SplatTree> make_tree(std::span<const uvec4> splats,
-                                                     std::vector<std::uint32_t>& order) override;
+  [[nodiscard]] bool walks_wide_tree() const override { return true; }
+  [[nodiscard]] std::unique_ptr<Buffer> lend(std::span<const std::byte> bytes,
+                                             std::shared_ptr<const void> keeper) override;
   void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;
   void download(const Buffer& buffer, std::span<std::byte> bytes) override;
   Ran run(const Dispatch& dispatch, const Bindings& bindings) override;

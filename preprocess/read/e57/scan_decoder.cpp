@@ -57,11 +57,9 @@ std::size_t column_number(Points& points, const Column& empty) {
                                   [&](const Column& column) { return column.name == empty.name; });
   const auto number = static_cast<std::size_t>(found - columns.begin());
   if (number == columns.size()) columns.push_back(empty);
-  std::visit(
-      [&points](auto& list) {
-        begin_list(list, points, typename std::decay_t<decltype(list)>::value_type{});
-      },
-      columns[number].values);
+  edit_values(columns[number], [&points](auto& list) {
+    begin_list(list, points, typename std::decay_t<decltype(list)>::value_type{});
+  });
   return number;
 }
 
@@ -216,15 +214,13 @@ void ScanDecoder::append_columns() {
     const ColumnSource& source = layout_.columns[c];
     const double* from = values(source.field);
     const double* invalid = source.invalid ? values(*source.invalid) : nullptr;
-    std::visit(
-        [&](auto& list) {
-          using Value = typename std::decay_t<decltype(list)>::value_type;
-          Value* to = grow(list, kept_.size());
-          for (const std::uint32_t i : kept_)
-            *to++ = invalid == nullptr || invalid[i] == 0.0 ? attribute_of<Value>(from[i] + source.add)
-                                                            : Value{0};
-        },
-        file_.points.columns[columns_[c]].values);
+    edit_values(file_.points.columns[columns_[c]], [&](auto& list) {
+      using Value = typename std::decay_t<decltype(list)>::value_type;
+      Value* to = grow(list, kept_.size());
+      for (const std::uint32_t i : kept_)
+        *to++ =
+            invalid == nullptr || invalid[i] == 0.0 ? attribute_of<Value>(from[i] + source.add) : Value{0};
+    });
   }
 }
 
@@ -308,7 +304,7 @@ void finish_scans(Points& points, const std::vector<std::size_t>& last_of_scan) 
                                     [](const Station& station) { return station.rows > 0; });
   if (has_grid) points.grid_cell.resize(size, NO_CELL);
   if (!has_grid) release(points.grid_cell);
-  for (Column& column : points.columns) std::visit([size](auto& list) { list.resize(size); }, column.values);
+  for (Column& column : points.columns) edit_values(column, [size](auto& list) { list.resize(size); });
   if (points.stations.size() < 2) return;
   points.station.reserve(size);
   for (std::size_t i = 0; i < last_of_scan.size(); ++i)

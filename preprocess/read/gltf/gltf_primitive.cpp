@@ -166,7 +166,7 @@ void select_points(Points& points, const std::vector<glm::uint>& indices) {
   select(points.position);
   select(points.normal);
   select(points.color);
-  for (Column& column : points.columns) std::visit(select, column.values);
+  for (Column& column : points.columns) edit_values(column, select);
 }
 
 std::vector<glm::uint> indices_of(const GltfFile& file, const tinygltf::Primitive& primitive,

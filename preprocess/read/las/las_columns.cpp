@@ -72,8 +72,7 @@ LasColumns::LasColumns(const LasHeader& header, LasExtras extra, const ScanOptio
                      {std::string(COLUMN_TIME), std::vector<double>{}}};
   for (LasExtraBytes& one : extra.columns) {
     if (find_column(points_.columns, one.name) != nullptr) continue;
-    points_.columns.push_back(
-        {one.name, one.fits_float() ? Column::Values(std::vector<float>{}) : std::vector<double>{}});
+    points_.columns.push_back({one.name, one.fits_float() ? Column::Values(Pool<float>()) : Pool<double>()});
     extra_.columns.push_back(std::move(one));
   }
 }
@@ -101,7 +100,7 @@ void LasColumns::for_each_array(F f) {
   if (extra_.normal) f(points_.normal);
   if (extra_.radius) f(points_.radius);
   for (std::size_t i = 0; i < points_.columns.size(); ++i)
-    if (i != TIME_COLUMN || fields_.time != 0) std::visit(f, points_.columns[i].values);
+    if (i != TIME_COLUMN || fields_.time != 0) edit_values(points_.columns[i], f);
 }
 
 void LasColumns::reserve(std::size_t count) {
@@ -125,7 +124,7 @@ void LasColumns::move(std::size_t from, std::size_t count, std::size_t to) {
 
 LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t count, std::size_t at) {
   const auto array = [this]<class T>(FixedColumn place, T) {
-    return std::get<std::vector<T>>(points_.columns[place].values).data();
+    return std::get<Pool<T>>(points_.columns[place].values).edit().data();
   };
   std::uint16_t* const intensity = array(INTENSITY_COLUMN, std::uint16_t{});
   std::uint8_t* const classification = array(CLASS_COLUMN, std::uint8_t{});
@@ -160,11 +159,9 @@ LasColumns::Filled LasColumns::fill(const unsigned char* records, std::size_t co
 
 void LasColumns::fill_extra(const unsigned char* record, std::size_t at) {
   for (std::size_t e = 0; e < extra_.columns.size(); ++e)
-    std::visit(
-        [&](auto& list) {
-          list[at] = static_cast<std::remove_reference_t<decltype(list[0])>>(extra_.columns[e].value(record));
-        },
-        points_.columns[FIXED_COLUMNS + e].values);
+    edit_values(points_.columns[FIXED_COLUMNS + e], [&](auto& list) {
+      list[at] = static_cast<std::remove_reference_t<decltype(list[0])>>(extra_.columns[e].value(record));
+    });
   if (extra_.normal)
     for (int axis = 0; axis < 3; ++axis)
       points_.normal[at][axis] =
@@ -176,7 +173,7 @@ std::vector<std::string> LasColumns::rounded() const {
   std::vector<std::string> names;
   for (std::size_t e = 0; e < extra_.columns.size(); ++e) {
     const Column& column = points_.columns[FIXED_COLUMNS + e];
-    const auto* const values = std::get_if<std::vector<double>>(&column.values);
+    const auto* const values = std::get_if<Pool<double>>(&column.values);
     if (values != nullptr && std::any_of(values->begin(), values->end(), [&](double value) {
           return extra_.columns[e].may_be_rounded(value);
         }))

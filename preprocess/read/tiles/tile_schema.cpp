@@ -88,7 +88,7 @@ Column::Values empty_values(const TileField& field) {
   if (field.kind == Kind::unsigned_integer && field.bytes == 2 && !is_scaled)
     return std::vector<std::uint16_t>{};
   const bool fits_float = field.kind == Kind::floating ? field.bytes == 4 : field.bytes <= 2;
-  return fits_float ? Column::Values(std::vector<float>{}) : Column::Values(std::vector<double>{});
+  return fits_float ? Column::Values(Pool<float>()) : Column::Values(Pool<double>());
 }
 
 /// The columns that records give, empty, and the field of each.
@@ -311,12 +311,10 @@ Points points_of_records(std::span<const unsigned char> records, const TileSchem
     if (normal[0] != nullptr) points.normal.emplace_back(glm::vec3(tile_values(normal, record)));
     if (station != nullptr) points.station.push_back(narrowed<std::uint16_t>(station->value(record)));
     for (std::size_t c = 0; c < fields.size(); ++c)
-      std::visit(
-          [&](auto& list) {
-            using Number = typename std::decay_t<decltype(list)>::value_type;
-            list.push_back(narrowed<Number>(fields[c]->value(record)));
-          },
-          points.columns[c].values);
+      edit_values(points.columns[c], [&](auto& list) {
+        using Number = typename std::decay_t<decltype(list)>::value_type;
+        list.push_back(narrowed<Number>(fields[c]->value(record)));
+      });
   }
   counts.stored += count;
   return points;

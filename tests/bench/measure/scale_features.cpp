@@ -94,7 +94,7 @@ std::vector<Entry> entries_of(const SceneLight& key, const SceneLight& behind) {
 /// Gives every splat the object that `object_of` names for its centre, world space.
 template <class ObjectOf>
 void set_objects(Scene& scene, const ObjectOf& object_of) {
-  for (uvec4& words : scene.data_pool) {
+  for (uvec4& words : scene.data_pool.edit()) {
     const std::uint32_t object = object_of(scene.root.to_world(unpack_splat(words).center));
     words.w = (words.w & ~OBJECT_MASK) | object;
   }
@@ -102,9 +102,9 @@ void set_objects(Scene& scene, const ObjectOf& object_of) {
 
 /// Colours that differ from splat to splat.
 void set_colors(Scene& scene) {
-  scene.color_pool.clear();
+  scene.color_pool.edit().clear();
   for (const uvec4& words : scene.data_pool)
-    scene.color_pool.push_back(pack_color(0.5F + 0.5F * vec3(unpack_splat(words).normal)));
+    scene.color_pool.edit().push_back(pack_color(0.5F + 0.5F * vec3(unpack_splat(words).normal)));
 }
 
 /// A copy of the sphere, whose default is two objects: what `forward` (unit, the view's direction) sees, and a cap behind.
@@ -117,9 +117,10 @@ Scene with_pools(Scene scene, Pools pools, const glm::dvec3& forward) {
     if (pools == Pools::halves) return glm::dot(center, across) > 0.0 ? 1U : 0U;
     return glm::dot(center, forward) > CAP_HEIGHT ? 1U : 0U;
   });
-  if (pools == Pools::flat) scene.field_pool.clear();
-  if (pools == Pools::flat_fields) std::fill(scene.field_pool.begin(), scene.field_pool.end(), FIELD_FLAT);
-  if (pools == Pools::white) scene.color_pool.assign(scene.data_pool.size(), pack_color(vec3(1.0F)));
+  if (pools == Pools::flat) scene.field_pool.edit().clear();
+  if (pools == Pools::flat_fields)
+    std::fill(scene.field_pool.edit().begin(), scene.field_pool.edit().end(), FIELD_FLAT);
+  if (pools == Pools::white) scene.color_pool.edit().assign(scene.data_pool.size(), pack_color(vec3(1.0F)));
   if (pools == Pools::colored) set_colors(scene);
   return scene;
 }

@@ -171,7 +171,7 @@ void write_thinned(const std::filesystem::path& scan, const std::filesystem::pat
       if (!all.color.empty()) points.color.push_back(all.color[i]);
       for (Column& column : points.columns)
         if (const Column* from = find_column(all.columns, column.name))
-          std::get<std::vector<double>>(column.values).push_back(from->number(i));
+          std::get<Pool<double>>(column.values).edit().push_back(from->number(i));
     }
     std::erase_if(points.columns, [](const Column& column) { return column.size() == 0; });
     write_las_points(points, folder / (std::to_string(part) + ".las"));

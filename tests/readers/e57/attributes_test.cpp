@@ -197,7 +197,7 @@ TEST(E57Attributes, IntensityIsScaledButItsLimitsAreNotApplied) {
   const Points points = read_bytes(e57_bytes(scan)).points;
   ASSERT_EQ(points.columns.size(), 1U);
   EXPECT_EQ(points.columns[0].name, COLUMN_INTENSITY);
-  EXPECT_EQ(points.columns[0].values, (decltype(Column::values)(std::vector<float>{-64.6F, 68.6F, 0.0F})));
+  EXPECT_EQ(points.columns[0].values, (decltype(Column::values)(Pool<float>{-64.6F, 68.6F, 0.0F})));
 }
 
 TEST(E57Attributes, FurtherFieldsAreKeptByNameAndReturnsWhereThereAreSeveral) {

@@ -192,7 +192,7 @@ TEST(E57, ScansOfOneFileAreItsStations) {
   ASSERT_EQ(points.stations.size(), 3U);
   EXPECT_EQ(points.stations[2].name, "last");
   EXPECT_EQ(points.station, (std::vector<std::uint16_t>{0, 0, 2, 2, 2}));
-  EXPECT_EQ(points.columns.at(0).values, (decltype(Column::values)(std::vector<float>{0, 0, 7, 8, 9})));
+  EXPECT_EQ(points.columns.at(0).values, (decltype(Column::values)(Pool<float>{0, 0, 7, 8, 9})));
   EXPECT_EQ(points.stored_color.at(1), glm::u16vec3(2));
   EXPECT_EQ(points.stored_color.at(4), glm::u16vec3(255));
 }

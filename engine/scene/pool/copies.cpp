@@ -1,6 +1,6 @@
-#include "engine/scene/copies.h"
+#include "engine/scene/pool/copies.h"
 
-#include "engine/scene/pool_table.h"
+#include "engine/scene/pool/pool_table.h"
 #include "engine/scene/texture_factors.h"
 #include "engine/scene/tree.h"
 

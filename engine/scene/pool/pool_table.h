@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
-#include <vector>
 
 #include "engine/scene/scene.h"
 
@@ -33,7 +32,7 @@ struct PoolTraits {
 template <typename Value>
 struct PoolRow : PoolTraits {
   const char* key;  ///< in JSON
-  std::vector<Value> Scene::*pool;
+  Pool<Value> Scene::*pool;
   std::uint32_t feature = 0;  ///< FEATURE_*
 
   [[nodiscard]] constexpr bool optional() const { return feature != 0; }
