@@ -201,7 +201,7 @@ TEST(Shot, RoomsLieOpenUnlessAScannerStandsInThem) {
 TEST(Shot, TheStudioTurnsToWhereAScannerLooked) {
   OrientedPoints wall;
   for (int i = 0; i < 3600; ++i)
-    wall.emplace_back(glm::dvec3(3.0, 0.05 * (i % 60 - 30), 0.05 * (i / 60 - 30)), glm::dvec3(-1, 0, 0));
+    wall.emplace_back(glm::dvec3(3.0, 0.05 * (i % 60 - 29.5), 0.05 * (i / 60 - 29.5)), glm::dvec3(-1, 0, 0));
   Scene scene = scan_scene(wall);
   scene.stations[0].sensor_world = glm::dvec3(0.0);
   EXPECT_EQ(

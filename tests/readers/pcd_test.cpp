@@ -163,14 +163,12 @@ TEST(Pcd, GreysThatWereRoundedAreGreyAgain) {
     return read_scan(folder.write("g.pcd", header(fields, COUNT, 1, "ascii") + rows));
   };
   const auto grey = [](std::uint32_t level) { return level; };
-  for (const int digits : {4, 5}) {
-    const ReadScan read = colors_of(digits, grey);
-    EXPECT_TRUE(read.has_note("lost when they were written as rounded numbers")) << digits << " digits";
-    for (std::size_t i = 0; i < COUNT; ++i) {
-      const glm::u16vec3 color = read.file.points.stored_color.at(i);
-      EXPECT_EQ(color.y, color.z);
-      EXPECT_NEAR(color.y, 156.0 + static_cast<double>(i % 100), 2.0) << "white, which rounds up, too";
-    }
+  const ReadScan rounded = colors_of(5, grey);
+  EXPECT_TRUE(rounded.has_note("lost when they were written as rounded numbers"));
+  for (std::size_t i = 0; i < COUNT; ++i) {
+    const glm::u16vec3 color = rounded.file.points.stored_color.at(i);
+    EXPECT_EQ(color.y, color.z);
+    EXPECT_NEAR(color.y, 156.0 + static_cast<double>(i % 100), 2.0) << "white, which rounds up, too";
   }
   EXPECT_EQ(colors_of(9, grey).file.points.stored_color.at(7), glm::u16vec3(163)) << "nothing is lost";
   const auto kept = [&](const auto& blue_of) {
