@@ -5,5 +5,7 @@
 extern "C" int dlclose(void* /*library*/) noexcept { return 0; }
 
 /// What VTK's readers and filters leave behind, of damaged files and of sound ones, is not ours to free, nor are the fonts that
-/// Fontconfig, which Cairo asks for letters, keeps until the process ends.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libvtk\nleak:libfontconfig\n"; }
+/// Fontconfig, which Cairo asks for letters, keeps until the process ends, nor what the validation layers note of synchronization.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libvtk\nleak:libfontconfig\nleak:libVkLayer_khronos_validation\n";
+}
