@@ -5,7 +5,6 @@
 
 namespace splatray {
 
-extern const std::span<const std::uint32_t> TRACE, TRACE_PAGED, LIGHT, LIGHT_PAGED, RAYS, RAYS_PAGED, FUSED,
-    DISPLAY;
+extern const std::span<const std::uint32_t> TRACE, LIGHT, RAYS, FUSED, DISPLAY;
 
 }  // namespace splatray

@@ -1,5 +1,5 @@
 // The GPU's side of what the other .glsl files need: specialization constants, pools, tables; engine/cpu/bindings_as_cpp.h is the
-// C++ side. PAGED: some pool is in several buffers. LIT: path tracing.
+// C++ side. LIT: path tracing.
 #ifndef SPLATRAY_BINDINGS_GLSL
 #define SPLATRAY_BINDINGS_GLSL
 #include "layout.h"
@@ -15,9 +15,7 @@ layout(constant_id = SPEC_FACES) const uint FACES = FACES_MIXED;
 layout(constant_id = SPEC_ORDER) const uint ORDER = ORDER_Z;
 layout(constant_id = SPEC_OUTPUT) const uint OUTPUT = OUTPUT_PICTURE;
 layout(constant_id = SPEC_TOP_LEVELS) const uint TOP_LEVELS = 0u;
-#ifdef PAGED
 layout(constant_id = SPEC_PAGE_SHIFT) const uint PAGE_SHIFT = 0u;
-#endif
 
 #define SPLATRAY_FEATURE(NAME, BIT) const bool NAME = (FEATURES & BIT) != 0u;
 #include "scene/features.glsl"
@@ -60,16 +58,15 @@ layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; }
 #define ARRAY_OF(number, name, Value, pages) \
   layout(std430, binding = number) readonly buffer name##_block { Value values[]; } name pages;
 
-#ifdef PAGED
-// By constants: not all devices let an array of buffers be indexed by anything else.
+// A page is found by constants: not all devices let an array of buffers be indexed by anything else. Of a pool in one buffer nothing
+// but that buffer's read is left once its pipeline is built. An index behind the array's end is not even in text that never runs.
 #define READ_PAGE(number, pool) \
-  if (pool##_more >= number && index >> PAGE_SHIFT == number) return pool[number].values[index & ((1u << PAGE_SHIFT) - 1u)];
+  if (pool##_more >= number && index >> PAGE_SHIFT == number) \
+    return pool[pool##_more >= number ? number : 0u].values[index & ((1u << PAGE_SHIFT) - 1u)];
 #define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
   layout(constant_id = SPEC_PAGES + place) const uint pool##_more = 0u; \
   ARRAY_OF(BIND_##NAME, pool, Value, [pool##_more + 1u]) \
   Value reader(uint index) { \
-    if (pool##_more == 0u) return pool[0u].values[index]; \
-    READ_PAGE(0u, pool) \
     READ_PAGE(1u, pool) \
     READ_PAGE(2u, pool) \
     READ_PAGE(3u, pool) \
@@ -77,13 +74,8 @@ layout(std430, binding = BIND_HITS) writeonly buffer HitTable { RayHit hits[]; }
     READ_PAGE(5u, pool) \
     READ_PAGE(6u, pool) \
     READ_PAGE(7u, pool) \
-    return Value(0u); \
+    return pool[0u].values[index]; \
   }
-#else
-#define SPLATRAY_POOL(place, NAME, pool, Value, reader, ABOUT) \
-  ARRAY_OF(BIND_##NAME, pool, Value, ) \
-  Value reader(uint index) { return pool.values[index]; }
-#endif
 #include "pools.glsl"
 
 /// Where the data pool has the splat that a place in the leaves' lists refers to.

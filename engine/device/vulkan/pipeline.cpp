@@ -133,8 +133,7 @@ Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const VulkanDevice& vulkan, 
 }
 
 PipelineCache::Pipeline PipelineCache::build(const PipelineKey& key, const SharedLayout& layout) const {
-  const auto code = program_code(key.program, is_paged(key.constants));
-  return make_pipeline(vulkan_, key, code, layout->get(), store_.get());
+  return make_pipeline(vulkan_, key, program_code(key.program), layout->get(), store_.get());
 }
 
 void PipelineCache::prepare(const PipelineKey& key, const SharedLayout& layout) {

@@ -4,14 +4,14 @@
 
 namespace splatray {
 
-std::span<const std::uint32_t> program_code(Program program, bool paged) {
+std::span<const std::uint32_t> program_code(Program program) {
   switch (program) {
     case Program::light:
-      return paged ? LIGHT_PAGED : LIGHT;
+      return LIGHT;
     case Program::rays:
-      return paged ? RAYS_PAGED : RAYS;
+      return RAYS;
     default:
-      return paged ? TRACE_PAGED : TRACE;
+      return TRACE;
   }
 }
 

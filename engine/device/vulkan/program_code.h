@@ -7,7 +7,7 @@
 
 namespace splatray {
 
-/// That of a program (shaders/variants.cmake); `paged`: some pool is in several buffers.
-[[nodiscard]] std::span<const std::uint32_t> program_code(Program program, bool paged);
+/// That of a program (shaders/variants.cmake).
+[[nodiscard]] std::span<const std::uint32_t> program_code(Program program);
 
 }  // namespace splatray

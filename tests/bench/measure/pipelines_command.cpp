@@ -100,9 +100,9 @@ class TellingDevice {
 /// Prints what is told of a dispatch's program.
 void print_program(const TellingDevice& device, Runner& runner, const char* name, const Dispatch& dispatch) {
   const VkPipelineLayout layout = static_cast<VulkanBindings&>(runner.scene.bindings()).layout()->get();
-  const auto code = program_code(dispatch.program, is_paged(dispatch.constants));
-  const auto pipeline = make_pipeline(device.vulkan(), {dispatch.program, dispatch.constants}, code, layout,
-                                      VK_NULL_HANDLE, VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
+  const auto pipeline =
+      make_pipeline(device.vulkan(), {dispatch.program, dispatch.constants}, program_code(dispatch.program),
+                    layout, VK_NULL_HANDLE, VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR);
   device.print(name, pipeline.get());
 }
 
