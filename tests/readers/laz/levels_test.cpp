@@ -13,7 +13,6 @@
 #include <tuple>
 
 #include "preprocess/levels/level_folder.h"
-#include "preprocess/levels/level_means.h"
 #include "preprocess/levels/level_nodes.h"
 #include "preprocess/levels/write_levels.h"
 #include "preprocess/read/formats.h"
@@ -205,7 +204,7 @@ TEST_F(WrittenLevels, HaveMeansForNodesThatAreNotRead) {
     }
     // The points in each cell of a node where finer ones are not read.
     std::map<std::tuple<std::uint32_t, int, int, int>, std::vector<glm::dvec3>> cells;
-    std::size_t as_they_are = 0, at_means = 0;
+    std::size_t as_they_are = 0, at_means = 0, all_means = 0, divided = 0;
     for (const glm::dvec3& position : all.position) {
       const Deepest at = deepest(levels, is_chosen, position);
       const double cell_m = levels.edge / std::ldexp(128.0, static_cast<int>(levels.nodes[at.node].level));
@@ -216,28 +215,48 @@ TEST_F(WrittenLevels, HaveMeansForNodesThatAreNotRead) {
         cells[{at.node, cell.x, cell.y, cell.z}].push_back(position - levels.low);
     }
     const Points found = read(ept("levels"), options);
-    ASSERT_EQ(found.size(), as_they_are + cells.size());
     const Column& count = *find_column(found.columns, TILE_COUNT);
-    for (std::size_t i = 0; i < found.size(); ++i) {
+    std::map<std::tuple<std::uint32_t, int, int, int>, std::vector<std::uint32_t>> means;
+    for (std::uint32_t i = 0; i < found.size(); ++i) {
       const Deepest at = deepest(levels, is_chosen, found.position[i]);
       ASSERT_EQ(at.is_end, count.number(i) == 0.0);
-      if (at.is_end) continue;
+      if (at.is_end) {
+        --as_they_are;
+        continue;
+      }
       const double cell_m = levels.edge / std::ldexp(128.0, static_cast<int>(levels.nodes[at.node].level));
       const glm::ivec3 cell((found.position[i] - levels.low) / cell_m);
-      const auto expected = cells.find({at.node, cell.x, cell.y, cell.z});
-      ASSERT_NE(expected, cells.end());
-      const std::vector<glm::dvec3>& points = expected->second;
-      ASSERT_EQ(count.number(i), static_cast<double>(points.size()));
-      const glm::dvec3 place = found.position[i] - levels.low;
-      const glm::dvec3 mean =
-          std::accumulate(points.begin(), points.end(), glm::dvec3(0.0)) / count.number(i);
-      // The mean, each level of which is rounded to the file's steps of 0.01, or of what is no surface a mean of some.
-      if (points.size() <= 3) {
-        ASSERT_LT(glm::distance(place, mean), 0.03);
-      }
-      at_means += glm::distance(place, mean) < 0.03 ? 1 : 0;
+      means[{at.node, cell.x, cell.y, cell.z}].push_back(i);
     }
-    EXPECT_GT(at_means, cells.size() / 2);
+    EXPECT_EQ(as_they_are, 0U);
+    ASSERT_EQ(means.size(), cells.size());
+    for (const auto& [key, numbers] : means) {
+      const auto of_cell = cells.find(key);
+      ASSERT_NE(of_cell, cells.end());
+      divided += numbers.size() > 1 ? 1 : 0;
+      const double part_m =
+          levels.edge / std::ldexp(256.0, static_cast<int>(levels.nodes[std::get<0>(key)].level));
+      for (const std::uint32_t i : numbers) {
+        // All points of the cell, or, where it has several means, those of an eighth of it.
+        const glm::dvec3 place = found.position[i] - levels.low;
+        std::vector<glm::dvec3> points;
+        std::copy_if(of_cell->second.begin(), of_cell->second.end(), std::back_inserter(points),
+                     [&](const glm::dvec3& point) {
+                       return numbers.size() == 1 || glm::ivec3(point / part_m) == glm::ivec3(place / part_m);
+                     });
+        ASSERT_EQ(count.number(i), static_cast<double>(points.size()));
+        const glm::dvec3 mean =
+            std::accumulate(points.begin(), points.end(), glm::dvec3(0.0)) / count.number(i);
+        // The mean, each level of which is rounded to the file's steps of 0.01, or of what is no surface a mean of some.
+        if (points.size() <= 3) {
+          ASSERT_LT(glm::distance(place, mean), 0.03);
+        }
+        at_means += glm::distance(place, mean) < 0.03 ? 1 : 0;
+        ++all_means;
+      }
+    }
+    EXPECT_GT(at_means, all_means / 2);
+    EXPECT_GT(divided, 0U);
   }
 }
 
@@ -260,49 +279,6 @@ TEST_F(WrittenLevels, OfOnePlaceTakeLittleMemory) {
   for (std::size_t i = 0; i < 5000; ++i)
     expected.insert(static_cast<double>(i)), found.insert(intensity.number(i));
   EXPECT_EQ(found, expected);
-}
-
-TEST(MeansOfPoints, AreOfLightAndOfTheMostFrequentClass) {
-  TileSchema schema;
-  using Kind = TileField::Kind;
-  for (const char* name : TILE_PLACE) schema.add({.name = name, .kind = Kind::floating, .bytes = 8});
-  for (const char* name : TILE_COLOUR) schema.add({.name = name, .bytes = 2});
-  for (const char* name : TILE_NORMAL) schema.add({.name = name, .kind = Kind::floating, .bytes = 4});
-  schema.add({.name = TILE_CLASS, .bytes = 1});
-  schema.add({.name = "ReturnNumber", .bytes = 1});
-  // Three of a cell, one of it that is noise, one of another cell.
-  const double values[5][11] = {{0.1, 0.2, 0.1, 0, 65535, 100, 0, 0, 1, 6, 1},
-                                {0.2, 0.2, 0.1, 65535, 65535, 100, 0, 0, 1, 2, 2},
-                                {0.3, 0.2, 0.4, 0, 65535, 100, 0, 0, -1, 2, 3},
-                                {0.3, 0.2, 0.4, 0, 0, 0, 0, 0, 1, 7, 4},
-                                {0.7, 0.2, 0.1, 5, 6, 7, 1, 0, 0, 9, 5}};
-  std::vector<unsigned char> records(5 * schema.record_bytes);
-  for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t f = 0; f < 11; ++f)
-      schema.fields[f].store(values[i][f], records.data() + i * schema.record_bytes);
-  const auto means_of = [&](const std::vector<unsigned char>& of, const TileSchema& with) {
-    std::vector<unsigned char> means;
-    append_means(of, with, LevelLattice{glm::dvec3(0.0), 1.0}, 1, means);
-    return means;
-  };
-  const std::vector<unsigned char> means = means_of(records, schema);
-  const TileSchema with_counts = tile_means_schema(schema);
-  ASSERT_EQ(means.size(), 3 * with_counts.record_bytes);
-  const auto value = [&](std::size_t mean, const char* name) {
-    return with_counts.find(name)->value(means.data() + mean * with_counts.record_bytes);
-  };
-  EXPECT_NEAR(value(0, "X"), 0.2, 1e-12);
-  EXPECT_NEAR(value(0, "Z"), 0.2, 1e-12);
-  EXPECT_NEAR(value(0, "Red"), 65535.0 * std::pow(1.0 / 3.0, 1.0 / 2.2), 1.0);
-  EXPECT_EQ(value(0, "Green"), 65535.0);
-  EXPECT_EQ(value(0, "NormalZ"), 0.0) << "sides that cancel have no normal";
-  EXPECT_EQ(value(0, TILE_CLASS), 2.0);
-  EXPECT_EQ(value(0, "ReturnNumber"), 2.0);
-  EXPECT_EQ(value(0, TILE_COUNT), 3.0);
-  EXPECT_EQ(value(1, TILE_CLASS), 7.0);
-  EXPECT_EQ(value(2, "NormalX"), 1.0);
-  EXPECT_EQ(value(2, TILE_COUNT), 1.0);
-  EXPECT_EQ(means_of(means, with_counts), means) << "means of single means are these";
 }
 
 TEST_F(WrittenLevels, GoOnWhereTheyWereInterrupted) {
