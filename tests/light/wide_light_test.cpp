@@ -55,6 +55,7 @@ class Dispatch {
       work.bound[binding] = reinterpret_cast<std::byte*>(values.data());
     };
     bind(BIND_ENVIRONMENT, texels_), bind(BIND_LIGHT_TABLES, tables_), bind(BIND_MATERIALS, materials_);
+    work.last_material = static_cast<std::uint32_t>(materials_.size() - 1);
     work.environment_width = sky.width, work.environment_height = sky.height;
     light = wide_light_of(work);
   }
