@@ -153,6 +153,34 @@ TEST(WideTree, ManySplatsAtOnePlace) {
   expect_twins_bits(scene, random_primary_rays(scene, 2000, 4));
 }
 
+// Points that were scanned twice, in other colours: of equal splats, all met at once, the one of the least index is the first everywhere.
+TEST(WideTree, EqualSplatsOfSeveralColours) {
+  OrientedPoints points = random_points(400, 5);
+  const std::size_t places = points.position.size();
+  for (std::size_t copy = 1; copy < 4; ++copy)
+    for (std::size_t i = 0; i < places; ++i) {
+      points.position.push_back(points.position[i]);
+      points.normal.push_back(points.normal[i]);
+      points.color.emplace_back(0.25 * double(copy), 0.9 - 0.2 * double(copy), 0.1);
+    }
+  const Scene scene = scene_with_radii(points, MATERIAL_TWO_SIDED, 0.3);
+  ASSERT_EQ(scene.data_pool.size(), 4 * places);
+  Settings settings;
+  settings.blend = BLEND_NEAREST;
+  const std::vector<RayQuery> rays = random_primary_rays(scene, 2000, 6);
+  expect_twins_bits(scene, rays, settings);
+  expect_twins_bits(scene, rays);
+  const std::vector<TrueHit> truth = all_nearest(BruteForce(scene), rays, settings);
+  const std::vector<RayHit> found = host_intersect(scene, rays, settings);
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!truth[i].found) continue;
+    ++hits;
+    EXPECT_LT(glm::distance(glm::dvec3(unpack_color(found[i].color)), truth[i].color), 0.02) << i;
+  }
+  EXPECT_GT(hits, 500U);
+}
+
 // A hit that is found late may be the first, and of a splat so large that its window reaches behind what was gone by.
 TEST(WideTree, WindowsThatGrow) {
   OrientedPoints points = rectangle({.count = 3000}, {-1.0, 0.0, -1.0}, {0.0, 0.0, 2.0}, {2.0, 0.0, 0.0});

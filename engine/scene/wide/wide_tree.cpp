@@ -132,6 +132,19 @@ bool holds(const WideNode& node, std::uint32_t child, const glm::vec3& place) {
   return true;
 }
 
+/// Lets equal splats, which lie beside each other among `splats`, keep the order that they came in: of those that a ray meets at once
+/// the first is taken, on all devices and whatever the tree.
+void keep_order_of_equals(std::span<const uvec4> splats, std::vector<std::uint32_t>& order) {
+  if (std::adjacent_find(splats.begin(), splats.end()) == splats.end()) return;
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t p = 0; p < order.size(); ++p) place[order[p]] = p;
+  for (std::uint32_t first = 0, end = 0; first < splats.size(); first = end) {
+    for (end = first + 1; end < splats.size() && splats[end] == splats[first];) ++end;
+    std::sort(place.begin() + first, place.begin() + end);
+    for (std::uint32_t i = first; i < end; ++i) order[place[i]] = i;
+  }
+}
+
 }  // namespace
 
 WideLevels wide_levels(std::uint64_t splats) {
@@ -164,6 +177,7 @@ std::vector<std::uint32_t> wide_order(std::span<const uvec4> splats, unsigned th
   std::vector<std::uint32_t> order;
   order.reserve(items.size());
   for (const Item& item : items) order.push_back(item.splat);
+  keep_order_of_equals(splats, order);
   return order;
 }
 
