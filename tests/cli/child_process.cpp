@@ -138,20 +138,16 @@ std::string grid_ply(bool normals, double offset, double step) {
   return ascii_ply(vertices, normals);
 }
 
-std::string mesh_grid_ply(double offset, double step) {
-  constexpr int SIDE = 12;
-  std::string text = grid_ply(true, offset, step);
-  std::ostringstream faces;
-  for (int i = 0; i + 1 < SIDE; ++i)
-    for (int j = 0; j + 1 < SIDE; ++j) {
-      const int corner = SIDE * i + j;
-      faces << "4 " << corner << ' ' << corner + 1 << ' ' << corner + SIDE + 1 << ' ' << corner + SIDE
-            << '\n';
-    }
-  const std::string element = "element face " + std::to_string((SIDE - 1) * (SIDE - 1)) +
-                              "\nproperty list uchar int vertex_indices\n";
-  text.insert(text.find("end_header"), element);
-  return text + faces.str();
+std::string splat_grid_ply(double offset, double step) {
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+      text.replace(at, what.size(), by);
+    return text;
+  };
+  const std::string discs = replaced(grid_ply(true, offset, step), " 0 1 0\n", " 0 1 0 0.08\n"),
+                    low = std::to_string(offset - 0.5);
+  const std::string lattice = "comment splatray lattice " + low + ' ' + low + ' ' + low + " 2e-6\n";
+  return replaced(discs, "end_header", "property float radius\n" + lattice + "end_header");
 }
 
 }  // namespace splatray

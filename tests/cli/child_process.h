@@ -73,7 +73,7 @@ class CliTest : public ::testing::Test {
 /// ASCII PLY of a 12 x 12 grid of points with normals, spacing `step`, at an offset on every axis.
 [[nodiscard]] std::string grid_ply(bool normals, double offset = 0.0, double step = 0.1);
 
-/// The same with normals and faces: a mesh, which is shown as a model is, where points alone are a scan.
-[[nodiscard]] std::string mesh_grid_ply(double offset = 0.0, double step = 0.1);
+/// The same as splats of a model, as splatray writes them: with normals, radii and their lattice, where points alone are a scan.
+[[nodiscard]] std::string splat_grid_ply(double offset = 0.0, double step = 0.1);
 
 }  // namespace splatray

@@ -17,7 +17,7 @@ namespace {
 
 class CliParts : public CliTest {
  protected:
-  void SetUp() override { grid = write("grid.ply", mesh_grid_ply()); }
+  void SetUp() override { grid = write("grid.ply", splat_grid_ply()); }
 
   /// Renders 40 x 30 pixels of three samples to a file.
   [[nodiscard]] ChildResult make(const std::string& name, std::vector<std::string> more) const {

@@ -12,7 +12,7 @@ class CliSequences : public CliTest {
  protected:
   void SetUp() override {
     CliTest::SetUp();
-    grid = write("grid.ply", mesh_grid_ply());
+    grid = write("grid.ply", splat_grid_ply());
   }
 
   [[nodiscard]] std::string bytes(const std::string& name) const {

@@ -22,8 +22,8 @@ class ViewSession : public CliTest {
  protected:
   void SetUp() override {
     CliTest::SetUp();
-    first = write("first.ply", mesh_grid_ply());
-    second = write("second.ply", mesh_grid_ply(100.0));
+    first = write("first.ply", splat_grid_ply());
+    second = write("second.ply", splat_grid_ply(100.0));
   }
 
   std::vector<std::string> viewer_environment() {
