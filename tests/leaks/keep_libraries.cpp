@@ -9,3 +9,6 @@ extern "C" int dlclose(void* /*library*/) noexcept { return 0; }
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libvtk\nleak:libfontconfig\nleak:libVkLayer_khronos_validation\n";
 }
+
+/// Some tests ask that a program says nothing.
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
