@@ -45,7 +45,7 @@ bool runs_in_waves() {
 bool is_plain(const Hit& hit, const Path& path) {
   if (LOOK == LOOK_CLAY) return true;
   if (TEXTURE_LAYER || TEXTURE_GLOW || TEXTURE_COLOR || TEXTURE_NORMAL) return false;
-  const Material material = material_at(hit.object);
+  const Material& material = materials[min(hit.object, bound->last_material)];
   return material.metallic == 0.0f && material.coat == 0.0f && (material.flags & MATERIAL_DIELECTRIC) == 0u &&
          (!LOBE_SPECULAR || material.roughness * material.roughness >= ALPHA_LEAST) && path.ray.inside == 0u;
 }
@@ -66,7 +66,7 @@ void add_vertex(uint path, Wave& wave) {
   vertices.object[i] = min(of.hit.object, bound->last_material);
   set_vector(of.hit.normal, i, vertices.normal);
   set_vector(of.path.ray.dir, i, vertices.dir);
-  set_vector(LOOK == LOOK_CLAY ? vec3(CLAY_ALBEDO) : material_at(of.hit.object).base * of.hit.color, i,
+  set_vector(LOOK == LOOK_CLAY ? vec3(CLAY_ALBEDO) : materials[vertices.object[i]].base * of.hit.color, i,
              vertices.base);
 }
 
