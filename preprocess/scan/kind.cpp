@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <optional>
 
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
@@ -68,13 +67,6 @@ void follow_classes(const Cloud& cloud, const Survey& survey, std::vector<ScanKi
   });
 }
 
-/// Where a point's scanner was, cloud coordinates, if that is known.
-std::optional<glm::dvec3> scanner_of(const Cloud& cloud, std::size_t point) {
-  const std::size_t station = cloud.station_of(point);
-  if (station >= cloud.stations.size() || !cloud.stations[station].sensor_world) return {};
-  return (*cloud.stations[station].sensor_world - cloud.center_world) / cloud.half_extent_world;
-}
-
 }  // namespace
 
 std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey) {
@@ -116,7 +108,7 @@ void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up
     cloud.radius_most[i] = std::min(cloud.radius_most[i], BESIDE_SCATTER * usual);
     if (cloud.on_surface(i)) return;
     cloud.radius[i] = share * std::min(ring[i], MOST_OVER_USUAL * usual);
-    const auto scanner = scanner_of(cloud, i);
+    const auto scanner = cloud.sensor_of(i);
     const glm::dvec3 normal =
         unit_or_zero(scanner ? *scanner - glm::dvec3(cloud.coord[i]) : UPWARDS * up - unit_or_zero(inwards));
     cloud.normal[i] = glm::vec3(normal == glm::dvec3(0.0) ? up : normal);

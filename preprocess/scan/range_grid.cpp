@@ -21,7 +21,7 @@ RangeGrid::RangeGrid(const Cloud& cloud, const Station& station, const std::vect
     return;
   rows_ = station.rows;
   columns_ = station.columns;
-  sensor_ = (*station.sensor_world - cloud.center_world) / cloud.half_extent_world;
+  sensor_ = cloud.in_cloud(*station.sensor_world);
   point_.resize(cells, NO_CELL);
   for (const std::uint32_t i : points)
     if (cloud.grid_cell[i] < cells) point_[cloud.grid_cell[i]] = i;

@@ -89,20 +89,14 @@ std::optional<glm::dvec3> open_sheet_axis(const Cloud& cloud, const Survey& surv
 SidesFound turn_to_sides(Cloud& cloud, const Survey& survey, const std::vector<std::uint32_t>& estimated,
                          const glm::dvec3& up, const Stage& stage) {
   if (estimated.empty()) return {SideRung::given};
-  const auto in_cloud = [&](const glm::dvec3& world) {
-    return (world - cloud.center_world) / cloud.half_extent_world;
-  };
   if (cloud.track.empty() && any_sensor(cloud)) {
-    turn_towards(cloud, survey, estimated, [&](std::uint32_t i) -> std::optional<glm::dvec3> {
-      const auto& sensor = cloud.stations[cloud.station_of(i)].sensor_world;
-      return sensor ? std::optional(in_cloud(*sensor)) : std::nullopt;
-    });
+    turn_towards(cloud, survey, estimated, [&](std::uint32_t i) { return cloud.sensor_of(i); });
     return {SideRung::sensor};
   }
   if (const FlightTrack track(cloud, up); !track.empty()) {
     const Column& time = *find_column(cloud.columns, COLUMN_TIME);
     turn_towards(cloud, survey, estimated,
-                 [&](std::uint32_t i) { return std::optional(in_cloud(track.at(time.number(i)))); });
+                 [&](std::uint32_t i) { return std::optional(cloud.in_cloud(track.at(time.number(i)))); });
     return {.rung = SideRung::track, .terrain = true};
   }
   if (const auto axis = open_sheet_axis(cloud, survey, up)) {

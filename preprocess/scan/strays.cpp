@@ -111,7 +111,7 @@ void mark_small_parts(const Cloud& cloud, const Survey& survey, std::vector<Stra
 /// What one station, whose sensor is known, shows of its points.
 void mark_seen_from(const Cloud& cloud, const Survey& survey, const Station& station,
                     const std::vector<std::uint32_t>& points, std::vector<Stray>& strays) {
-  const glm::dvec3 sensor = (*station.sensor_world - cloud.center_world) / cloud.half_extent_world;
+  const glm::dvec3 sensor = cloud.in_cloud(*station.sensor_world);
   const RangeGrid grid(cloud, station, points);
   std::vector<float> steps(points.size()), second(grid.empty() ? 0 : points.size());
   std::vector<std::array<float, 8>> off(second.size());

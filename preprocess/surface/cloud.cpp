@@ -70,9 +70,8 @@ glm::vec3 rounded(const glm::dvec3& unit) {
 /// Cloud::coord, in the cloud's frame.
 void find_coordinates(Cloud& cloud) {
   cloud.coord.resize(cloud.position.size());
-  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
-    cloud.coord[i] = rounded((cloud.position[i] - cloud.center_world) / cloud.half_extent_world);
-  });
+  tbb::parallel_for(std::size_t{0}, cloud.size(),
+                    [&](std::size_t i) { cloud.coord[i] = rounded(cloud.in_cloud(cloud.position[i])); });
 }
 
 void normalise_coordinates(Cloud& cloud, const Bounds& bounds) {

@@ -62,9 +62,19 @@ struct Cloud {
   [[nodiscard]] glm::dvec3 place_world(std::size_t i) const {
     return position.empty() ? center_world + half_extent_world * glm::dvec3(coord[i]) : position[i];
   }
+  /// A place of the world in cloud coordinates.
+  [[nodiscard]] glm::dvec3 in_cloud(const glm::dvec3& world) const {
+    return (world - center_world) / half_extent_world;
+  }
   [[nodiscard]] bool on_surface(std::size_t i) const { return kind.empty() || kind[i] == ScanKind::surface; }
   /// The number of a point's station; meant only where there are stations.
   [[nodiscard]] std::size_t station_of(std::size_t i) const { return station.empty() ? 0 : station[i]; }
+  /// Where a point's scanner was, cloud coordinates, if that is known.
+  [[nodiscard]] std::optional<glm::dvec3> sensor_of(std::size_t i) const {
+    const std::size_t s = station_of(i);
+    if (s >= stations.size() || !stations[s].sensor_world) return {};
+    return in_cloud(*stations[s].sensor_world);
+  }
 };
 
 /// The box of the places, world units.

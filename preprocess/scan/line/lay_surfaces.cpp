@@ -11,8 +11,7 @@ void lay_line_surfaces(Cloud& cloud, const Survey& survey, bool splats, std::vec
   for (std::size_t s = 0; s < cloud.stations.size(); ++s) {
     if (!cloud.stations[s].sensor_world) continue;
     auto points = numbers_where(cloud.size(), [&](std::size_t i) { return cloud.station_of(i) == s; });
-    const glm::dvec3 sensor =
-        (*cloud.stations[s].sensor_world - cloud.center_world) / cloud.half_extent_world;
+    const glm::dvec3 sensor = cloud.in_cloud(*cloud.stations[s].sensor_world);
     if (const auto sweep = find_rings(cloud, points, sensor, lines))
       sweeps.emplace_back(*sweep, std::move(points));
   }
