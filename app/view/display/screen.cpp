@@ -66,6 +66,7 @@ DisplayParams params_of(const GrownPicture& grown, const ShownAs& how) {
 Screen::Screen(const VulkanDevice& vulkan)
     : vulkan_(vulkan),
       transfers_(vulkan),
+      set_(vulkan, std::array<DescriptorSet::Binding, DISPLAY_BINDINGS>{}),
       pool_(make_command_pool(vulkan)),
       commands_(make_commands(vulkan, pool_.get())),
       params_(vulkan, sizeof(DisplayParams), STORAGE),
@@ -73,82 +74,27 @@ Screen::Screen(const VulkanDevice& vulkan)
       state_(words(vulkan, DISPLAY_STATE_WORDS)),
       ring_(vulkan, STORAGE, Residence::device),
       made_(make_timeline(vulkan)) {
-  make_set();
+  set_.write(DISPLAY_BIND_PARAMS, params_.get());
+  set_.write(DISPLAY_BIND_CURVES, curves_.get());
+  set_.write(DISPLAY_BIND_STATE, state_.get());
   const std::vector<std::uint32_t> fixed = fixed_curves();
   transfers_.upload(curves_, std::as_bytes(std::span(fixed)), DISPLAY_AS_IT_IS * sizeof(std::uint32_t));
   forget();
 }
 
-Screen::~Screen() {
+Screen::~Screen() { wait_for_last(); }
+
+VkResult Screen::wait_for_last() const {
   const VkSemaphore semaphore = made_->get();
   VkSemaphoreWaitInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
   info.semaphoreCount = 1;
   info.pSemaphores = &semaphore;
   info.pValues = &made_at_;
-  vkWaitSemaphores(vulkan_.device, &info, UINT64_MAX);
+  return vkWaitSemaphores(vulkan_.device, &info, UINT64_MAX);
 }
 
-void Screen::make_set() {
-  std::array<VkDescriptorSetLayoutBinding, DISPLAY_BINDINGS> bindings{};
-  for (std::uint32_t i = 0; i < DISPLAY_BINDINGS; ++i)
-    bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
-  VkDescriptorSetLayoutCreateInfo set_info{};
-  set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  set_info.bindingCount = DISPLAY_BINDINGS;
-  set_info.pBindings = bindings.data();
-  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-  check(vkCreateDescriptorSetLayout(vulkan_.device, &set_info, nullptr, &set_layout),
-        "making a descriptor set layout");
-  set_layout_ = {vulkan_.device, set_layout};
-  VkPipelineLayoutCreateInfo layout_info{};
-  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  layout_info.setLayoutCount = 1;
-  layout_info.pSetLayouts = &set_layout;
-  VkPipelineLayout layout = VK_NULL_HANDLE;
-  check(vkCreatePipelineLayout(vulkan_.device, &layout_info, nullptr, &layout), "making a pipeline layout");
-  layout_ = {vulkan_.device, layout};
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, DISPLAY_BINDINGS};
-  VkDescriptorPoolCreateInfo pool_info{};
-  pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  pool_info.maxSets = 1;
-  pool_info.poolSizeCount = 1;
-  pool_info.pPoolSizes = &size;
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(vulkan_.device, &pool_info, nullptr, &pool), "making a descriptor pool");
-  sets_ = {vulkan_.device, pool};
-  VkDescriptorSetAllocateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-  info.descriptorPool = pool;
-  info.descriptorSetCount = 1;
-  info.pSetLayouts = &set_layout;
-  check(vkAllocateDescriptorSets(vulkan_.device, &info, &set_), "making a descriptor set");
-  bind(DISPLAY_BIND_PARAMS, params_.get());
-  bind(DISPLAY_BIND_CURVES, curves_.get());
-  bind(DISPLAY_BIND_STATE, state_.get());
-}
-
-void Screen::bind(std::uint32_t binding, VkBuffer buffer) const {
-  const VkDescriptorBufferInfo buffer_info{buffer, 0, VK_WHOLE_SIZE};
-  VkWriteDescriptorSet write{};
-  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-  write.dstSet = set_;
-  write.dstBinding = binding;
-  write.descriptorCount = 1;
-  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  write.pBufferInfo = &buffer_info;
-  vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
-}
-
-void Screen::wait() const {
-  const VkSemaphore semaphore = made_->get();
-  VkSemaphoreWaitInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
-  info.semaphoreCount = 1;
-  info.pSemaphores = &semaphore;
-  info.pValues = &made_at_;
-  check(vkWaitSemaphores(vulkan_.device, &info, UINT64_MAX), "waiting for a picture");
-}
+void Screen::wait() const { check(wait_for_last(), "waiting for a picture"); }
 
 void Screen::forget() {
   wait();
@@ -178,9 +124,9 @@ SharedPicture Screen::show(const GrownPicture& grown, const ShownAs& how) {
   take_curve(how.table);
   const std::shared_ptr<DevicePicture> picture =
       ring_.take(std::uint64_t{grown.width} * grown.height * sizeof(std::uint32_t));
-  bind(DISPLAY_BIND_MEANS, static_cast<const VulkanBuffer*>(grown.means)->get());
-  bind(DISPLAY_BIND_BEFORE, static_cast<const VulkanBuffer*>(grown.before)->get());
-  bind(DISPLAY_BIND_PIXELS, picture->pixels.get());
+  set_.write(DISPLAY_BIND_MEANS, static_cast<const VulkanBuffer*>(grown.means)->get());
+  set_.write(DISPLAY_BIND_BEFORE, static_cast<const VulkanBuffer*>(grown.before)->get());
+  set_.write(DISPLAY_BIND_PIXELS, picture->pixels.get());
   record(params_of(grown, how), how);
   submit();
   picture->made = made_;
@@ -203,7 +149,9 @@ void Screen::record(const DisplayParams& params, const ShownAs& how) {
   record_barrier(commands_);
   vkCmdFillBuffer(commands_, state_.get(), DISPLAY_CUT * WORD, WORD, 0);
   vkCmdUpdateBuffer(commands_, params_.get(), 0, sizeof(params), &params);
-  vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layout_.get(), 0, 1, &set_, 0, nullptr);
+  const VkDescriptorSet set = set_.get();
+  vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, set_.layout()->get(), 0, 1, &set, 0,
+                          nullptr);
   if (!how.is_seen && !how.moving) {
     vkCmdFillBuffer(commands_, state_.get(), DISPLAY_SUM_REST * WORD, SUM, 0);
     record_step(DISPLAY_PLAIN, pixels, how.table);
@@ -231,8 +179,10 @@ VkPipeline Screen::program(std::uint32_t step, std::uint32_t tone) {
     PipelineKey constants;
     constants.constants[DISPLAY_SPEC_STEP] = key.first;
     constants.constants[DISPLAY_SPEC_TONE] = key.second;
-    found = programs_.emplace(key, make_pipeline(vulkan_, constants, DISPLAY, layout_.get(), VK_NULL_HANDLE))
-                .first;
+    found =
+        programs_
+            .emplace(key, make_pipeline(vulkan_, constants, DISPLAY, set_.layout()->get(), VK_NULL_HANDLE))
+            .first;
   }
   return found->second.get();
 }

@@ -9,6 +9,7 @@
 #include "app/view/display/device_picture.h"
 #include "app/view/display/display_table.h"
 #include "engine/device/vulkan/command_queue.h"
+#include "engine/device/vulkan/descriptor_set.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"
 #include "shaders/display/display_layout.h"
@@ -47,8 +48,7 @@ class Screen {
   void forget();
 
  private:
-  void make_set();
-  void bind(std::uint32_t binding, VkBuffer buffer) const;
+  VkResult wait_for_last() const;
   void take_curve(const DisplayTable& table);
   /// The program of a step, DISPLAY_PLAIN and its like, and of a tone curve, DISPLAY_TONE_*; built when it is the first such.
   [[nodiscard]] VkPipeline program(std::uint32_t step, std::uint32_t tone);
@@ -58,10 +58,7 @@ class Screen {
 
   const VulkanDevice& vulkan_;
   CommandQueue transfers_;
-  Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
-  Handle<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
-  Handle<VkDescriptorPool, vkDestroyDescriptorPool> sets_;
-  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  DescriptorSet set_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Handle<VkPipeline, vkDestroyPipeline>> programs_;
   Handle<VkCommandPool, vkDestroyCommandPool> pool_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;

@@ -8,13 +8,13 @@
 namespace splatray {
 namespace {
 
-VkDescriptorType descriptor_type(std::uint32_t binding) {
-  return binding == BIND_ENVIRONMENT ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
-std::uint32_t descriptor_count(std::uint32_t binding, const Paging& paging) {
-  return is_pool(binding) ? paging.pages[binding - BIND_POOLS] : 1;
+/// The bindings BIND_*, of pools a buffer a page.
+std::array<DescriptorSet::Binding, BINDINGS> bindings_of(const Paging& paging) {
+  std::array<DescriptorSet::Binding, BINDINGS> bindings{};
+  for (std::uint32_t i = 0; i < BINDINGS; ++i)
+    if (is_pool(i)) bindings[i].count = paging.pages[i - BIND_POOLS];
+  bindings[BIND_ENVIRONMENT].type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  return bindings;
 }
 
 Handle<VkShaderModule, vkDestroyShaderModule> make_module(const VulkanDevice& vulkan,
@@ -31,81 +31,16 @@ Handle<VkShaderModule, vkDestroyShaderModule> make_module(const VulkanDevice& vu
 }  // namespace
 
 VulkanBindings::VulkanBindings(const VulkanDevice& vulkan, const Paging& paging)
-    : vulkan_(vulkan), paging_(paging) {
-  create_layout();
-  create_set();
-}
-
-void VulkanBindings::create_layout() {
-  std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
-  for (std::uint32_t i = 0; i < BINDINGS; ++i)
-    bindings[i] = {i, descriptor_type(i), descriptor_count(i, paging_), VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
-  VkDescriptorSetLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.bindingCount = BINDINGS;
-  info.pBindings = bindings.data();
-  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-  check(vkCreateDescriptorSetLayout(vulkan_.device, &info, nullptr, &set_layout),
-        "making a descriptor set layout");
-  set_layout_ = {vulkan_.device, set_layout};
-
-  VkPipelineLayoutCreateInfo layout_info{};
-  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  layout_info.setLayoutCount = 1;
-  layout_info.pSetLayouts = &set_layout;
-  VkPipelineLayout layout = VK_NULL_HANDLE;
-  check(vkCreatePipelineLayout(vulkan_.device, &layout_info, nullptr, &layout), "making a pipeline layout");
-  pipeline_layout_ =
-      std::make_shared<const Handle<VkPipelineLayout, vkDestroyPipelineLayout>>(vulkan_.device, layout);
-}
-
-void VulkanBindings::create_set() {
-  std::array<VkDescriptorPoolSize, BINDINGS> sizes{};
-  for (std::uint32_t i = 0; i < BINDINGS; ++i) sizes[i] = {descriptor_type(i), descriptor_count(i, paging_)};
-  VkDescriptorPoolCreateInfo pool_info{};
-  pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  pool_info.maxSets = 1;
-  pool_info.poolSizeCount = BINDINGS;
-  pool_info.pPoolSizes = sizes.data();
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(vulkan_.device, &pool_info, nullptr, &pool), "making a descriptor pool");
-  pool_ = {vulkan_.device, pool};
-
-  const VkDescriptorSetLayout set_layout = set_layout_.get();
-  VkDescriptorSetAllocateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-  info.descriptorPool = pool;
-  info.descriptorSetCount = 1;
-  info.pSetLayouts = &set_layout;
-  check(vkAllocateDescriptorSets(vulkan_.device, &info, &set_), "making a descriptor set");
-}
+    : set_(vulkan, bindings_of(paging)) {}
 
 void VulkanBindings::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) {
-  const auto& bound = static_cast<const VulkanBuffer&>(buffer);
-  const VkDescriptorBufferInfo buffer_info{bound.get(), 0, VK_WHOLE_SIZE};
-  VkWriteDescriptorSet write{};
-  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-  write.dstSet = set_;
-  write.dstBinding = binding;
-  write.dstArrayElement = page;
-  write.descriptorCount = 1;
-  write.descriptorType = descriptor_type(binding);
-  write.pBufferInfo = &buffer_info;
-  vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
+  set_.write(binding, static_cast<const VulkanBuffer&>(buffer).get(), page);
 }
 
 void VulkanBindings::bind(const DeviceTexture& texture) {
   const auto& environment = static_cast<const EnvironmentTexture&>(texture);
-  const VkDescriptorImageInfo image_info{environment.sampler(), environment.view(),
-                                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-  VkWriteDescriptorSet write{};
-  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-  write.dstSet = set_;
-  write.dstBinding = BIND_ENVIRONMENT;
-  write.descriptorCount = 1;
-  write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  write.pImageInfo = &image_info;
-  vkUpdateDescriptorSets(vulkan_.device, 1, &write, 0, nullptr);
+  set_.write(BIND_ENVIRONMENT, VkDescriptorImageInfo{environment.sampler(), environment.view(),
+                                                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 
 Handle<VkPipeline, vkDestroyPipeline> make_pipeline(const VulkanDevice& vulkan, const PipelineKey& key,

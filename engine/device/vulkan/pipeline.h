@@ -10,12 +10,10 @@
 
 #include "engine/device/queue.h"
 #include "engine/device/vulkan/buffer.h"
+#include "engine/device/vulkan/descriptor_set.h"
 #include "engine/device/vulkan/pipeline_store.h"
 
 namespace splatray {
-
-/// Shared with the threads that build pipelines of it.
-using SharedLayout = std::shared_ptr<const Handle<VkPipelineLayout, vkDestroyPipelineLayout>>;
 
 /// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout.
 class VulkanBindings final : public Bindings {
@@ -27,19 +25,11 @@ class VulkanBindings final : public Bindings {
   void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) override;
   void bind(const DeviceTexture& texture) override;
 
-  [[nodiscard]] VkDescriptorSet set() const { return set_; }
-  [[nodiscard]] const SharedLayout& layout() const { return pipeline_layout_; }
+  [[nodiscard]] VkDescriptorSet set() const { return set_.get(); }
+  [[nodiscard]] const SharedLayout& layout() const { return set_.layout(); }
 
  private:
-  void create_layout();
-  void create_set();
-
-  const VulkanDevice& vulkan_;
-  const Paging paging_;
-  Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> set_layout_;
-  SharedLayout pipeline_layout_;
-  Handle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
-  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  DescriptorSet set_;
 };
 
 /// What a pipeline is made of, and so its name in the cache.
