@@ -37,6 +37,25 @@ std::uint32_t Levels::depth() const {
   return deepest;
 }
 
+LoadCount::LoadCount(const Levels& levels)
+    : levels_(levels), means_below_(levels.nodes.size()), is_counted_(levels.nodes.size()) {
+  for (const LevelNode& node : levels.nodes)
+    if (node.parent != LevelNode::NO_PARENT) means_below_[node.parent] += node.means;
+}
+
+void LoadCount::add(std::uint32_t node) {
+  const auto count_points = [&](std::uint32_t one) {
+    if (!is_counted_[one]) sum_ += levels_.nodes[one].points;
+    is_counted_[one] = true;
+  };
+  sum_ += means_below_[node];
+  if (means_below_[node] == 0) count_points(node);
+  if (const LevelNode& added = levels_.nodes[node]; added.parent != LevelNode::NO_PARENT) {
+    sum_ -= added.means;
+    count_points(added.parent);
+  }
+}
+
 std::optional<std::string> link_levels(std::vector<LevelNode>& nodes) {
   const auto order = [](const LevelNode& node) {
     return std::tuple(node.level, node.cell.x, node.cell.y, node.cell.z);

@@ -19,6 +19,7 @@ struct LevelNode {
   std::uint32_t parent = NO_PARENT;     ///< index of a node before this one
   std::uint64_t points = 0;             ///< of its own; 0: its descendants alone have some
   std::uint64_t offset = 0, bytes = 0;  ///< of these points in the file; 0: each node is a file of its own
+  std::uint64_t means = 0;              ///< that stand for all points in it where it is not read; 0: none do
 
   /// Whether its level has such a cell.
   [[nodiscard]] bool lies_in_octree() const;
@@ -31,6 +32,25 @@ struct Levels {
 
   [[nodiscard]] std::uint64_t points() const;
   [[nodiscard]] std::uint32_t depth() const;  ///< levels that have nodes, 0 without any
+};
+
+/// How much is loaded of a scan of which some nodes are read: their points, and the means of those nodes below them that are not, which take
+/// the place of points that the nodes above have there.
+class LoadCount {
+ public:
+  /// `levels` must live as long as this.
+  explicit LoadCount(const Levels& levels);
+
+  /// A node is read, too, after the one above it.
+  void add(std::uint32_t node);
+  /// Never less than that: of a node all points count unless means stand for every node below it.
+  [[nodiscard]] std::uint64_t sum() const { return sum_; }
+
+ private:
+  const Levels& levels_;
+  std::vector<std::uint64_t> means_below_;  ///< of each node, those of its children
+  std::vector<bool> is_counted_;            ///< whether a node's points are
+  std::uint64_t sum_ = 0;
 };
 
 /// Puts nodes that a directory names in any order before their children, which know them then. Returns what it found where they are no

@@ -116,6 +116,33 @@ TEST(LevelCut, CutsAreNested) {
   }
 }
 
+/// Means stand for nodes that are not taken: they take memory, too.
+TEST(LevelCut, MemoryHoldsPointsAndMeans) {
+  Levels levels = ground(6, 100);
+  LevelCut how{{from_above(500.0, 1024.0)}, 2.0};
+  how.most_points = 10'000;
+  const std::vector<std::uint32_t> points_alone = cut(levels, how);
+  ASSERT_EQ(points_alone.size(), 85U) << "four levels of 100, 400, 1600 and 6400";
+  for (LevelNode& node : levels.nodes)
+    if (node.level > 0) node.means = 30;
+  const auto loaded = [&](const std::vector<std::uint32_t>& nodes) {
+    LoadCount count(levels);
+    for (const std::uint32_t i : nodes) count.add(i);
+    return count.sum();
+  };
+  // Means of the 256 nodes below the fourth level for its points; those of the first three levels are at its places.
+  EXPECT_EQ(loaded(points_alone), 2100U + 256U * 30U);
+  EXPECT_EQ(cut(levels, how), points_alone);
+  how.most_points = 2100 + 256 * 30 - 1;
+  const std::vector<std::uint32_t> fewer = cut(levels, how);
+  EXPECT_EQ(fewer.size(), 21U);
+  EXPECT_EQ(loaded(fewer), 500U + 64U * 30U);
+  const std::uint64_t all = points_of(levels, cut(levels, {{from_above(500.0, 1024.0)}, 0.0}));
+  std::vector<std::uint32_t> every(levels.nodes.size());
+  for (std::uint32_t i = 0; i < every.size(); ++i) every[i] = i;
+  EXPECT_EQ(loaded(every), all) << "no means where all is read";
+}
+
 TEST(ReadNote, SaysWhatDecidesHowMuchIsRead) {
   const InLevels files{{"ground"}, {ground(6, 1000)}};
   const std::vector<View> views = {from_above(600.0)};

@@ -126,9 +126,13 @@ CutLevels cut_levels(const std::vector<Levels>& files, const LevelCut& cut) {
   std::stable_sort(wanted.begin(), wanted.end(),
                    [](const Wanted& a, const Wanted& b) { return a.spacing_px > b.spacing_px; });
   CutLevels chosen{std::vector<std::vector<std::uint32_t>>(files.size()), cut.spacing_px};
+  std::vector<LoadCount> loaded(files.begin(), files.end());
   std::uint64_t points = 0;
   for (const Wanted& one : wanted) {
-    points += files[one.file].nodes[one.node].points;
+    LoadCount& of_file = loaded[one.file];
+    points -= of_file.sum();
+    of_file.add(one.node);
+    points += of_file.sum();
     if (points <= cut.most_points || std::isinf(one.spacing_px)) continue;
     chosen.spacing_px = one.spacing_px;
     break;

@@ -9,9 +9,9 @@ namespace splatray {
 
 /// What of the nodes the pictures see, and how finely.
 struct LevelCut {
-  std::vector<View> views;  ///< pictures, or windows of them
-  double spacing_px = 1.0;  ///< of the points chosen; 0: all
-  std::uint64_t most_points = std::numeric_limits<std::uint64_t>::max();
+  std::vector<View> views;                                                ///< pictures, or windows of them
+  double spacing_px = 1.0;                                                ///< of the points chosen; 0: all
+  std::uint64_t most_points = std::numeric_limits<std::uint64_t>::max();  ///< with means (LoadCount)
   /// How much wider the spacing may be of what no picture shows: it is met by shadows, reflections and the sky's light alone. Infinite:
   /// nothing of it.
   double unseen_factor = 8.0;

@@ -46,6 +46,16 @@ std::uint64_t InLevels::points(const ChosenNodes& nodes) const {
   return sum;
 }
 
+std::uint64_t InLevels::loaded(const ChosenNodes& nodes) const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    LoadCount count(levels[i]);
+    for (const std::uint32_t node : nodes.at(paths[i])) count.add(node);
+    sum += count.sum();
+  }
+  return sum;
+}
+
 InLevels in_levels(const Request& request) {
   InLevels files;
   if (request.source.lod == 0.0 || is_scene_file(request.source.inputs.front())) return files;
@@ -81,7 +91,7 @@ NeededNodes needed_nodes(const Request& request, const std::vector<View>& views,
 std::string read_note(const Request& request, const InLevels& files, const NeededNodes& needed) {
   const std::uint64_t points = files.points(needed.nodes);
   std::string why = "as the pictures need; --lod 0 reads all";
-  if (points > most_points(request))
+  if (files.loaded(needed.nodes) > most_points(request))
     why = "the coarsest level, which takes more memory than there is or --max-memory says";
   else if (needed.lod > request.source.lod.value_or(1.0))
     why = "as memory holds, of which --max-memory may say more; the pictures need finer ones";
@@ -104,7 +114,7 @@ ChosenNodes with_all_seen(const Request& request, const std::vector<View>& parts
     std::set_union(before.begin(), before.end(), seen.nodes[i].begin(), seen.nodes[i].end(),
                    std::back_inserter(of_file));
   }
-  const std::uint64_t points = files.points(all), most = most_points(request);
+  const std::uint64_t points = files.loaded(all), most = most_points(request);
   if (points > most)
     throw Error(ExitCode::out_of_memory, "--lod-error takes " + std::to_string(points) +
                                              " points, expected at most the " + std::to_string(most) +

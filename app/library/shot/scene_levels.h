@@ -18,6 +18,8 @@ struct InLevels {
   [[nodiscard]] std::uint64_t points() const;
   /// Those of the nodes of all files.
   [[nodiscard]] std::uint64_t points(const ChosenNodes& nodes) const;
+  /// With the means that stand for nodes below these: what must fit into memory.
+  [[nodiscard]] std::uint64_t loaded(const ChosenNodes& nodes) const;
 };
 
 /// None where all points are to be read, as those of small scans are. Throws Error (input_unreadable).

@@ -253,6 +253,15 @@ std::uint64_t means_of(const Json& counts, const std::string& name, const Path& 
   return count.get<std::uint64_t>();
 }
 
+Path counts_of_means(const Path& path) { return path.parent_path() / "ept-means" / "counts.json"; }
+
+void count_means(const Path& path, Levels& levels) {
+  const Path page = counts_of_means(path);
+  const Json counts = read_json(page);
+  for (LevelNode& node : levels.nodes)
+    if (node.parent != LevelNode::NO_PARENT) node.means = means_of(counts, name_of(node), page);
+}
+
 /// The files of nodes that have points, and of means.
 std::vector<TileFile> tile_files(const Path& path, const Head& head, const Levels& levels,
                                  const std::vector<std::uint32_t>& nodes, const StandIns* stand_ins) {
@@ -263,7 +272,7 @@ std::vector<TileFile> tile_files(const Path& path, const Head& head, const Level
     if (const LevelNode& node = levels.nodes[i]; node.points > 0)
       files.push_back({folder / "ept-data" / (name_of(node) + extension), i, node.points});
   if (stand_ins == nullptr || stand_ins->nodes().empty()) return files;
-  const Path page = folder / "ept-means" / "counts.json";
+  const Path page = counts_of_means(path);
   const Json counts = read_json(page);
   for (const std::uint32_t i : stand_ins->nodes()) {
     const std::string name = name_of(levels.nodes[i]);
@@ -333,7 +342,10 @@ std::vector<Station> read_stations(const Json& stations, const Path& path) {
 
 Levels ept_levels(const Path& path) {
   const Head head = read_head(path);
-  return describe_crs(head.crs).is_degrees ? Levels{} : levels_of_head(path, head);
+  if (describe_crs(head.crs).is_degrees) return {};
+  Levels levels = levels_of_head(path, head);
+  if (head.has_means) count_means(path, levels);
+  return levels;
 }
 
 ScanFile read_ept(const Path& path, const ReadOptions& options, const ReadListener& listener) {

@@ -260,6 +260,39 @@ TEST_F(WrittenLevels, HaveMeansForNodesThatAreNotRead) {
   }
 }
 
+/// What is loaded of some nodes is known beforehand: exactly where all of a level are read, else within the points of nodes of which some
+/// below them are read.
+TEST_F(WrittenLevels, SayHowMuchIsLoadedOfSomeNodes) {
+  write("levels");
+  const Levels levels = levels_of(ept("levels"));
+  const auto count_of = [&](const std::vector<std::uint32_t>& chosen) {
+    LoadCount count(levels);
+    for (const std::uint32_t i : chosen) count.add(i);
+    return count.sum();
+  };
+  const auto found_of = [&](const std::vector<std::uint32_t>& chosen) {
+    ReadOptions options;
+    options.nodes[ept("levels")] = chosen;
+    return read(ept("levels"), options).size();
+  };
+  ASSERT_GE(levels.depth(), 3U);
+  for (std::uint32_t depth = 1; depth <= levels.depth(); ++depth) {
+    std::vector<std::uint32_t> chosen;
+    std::uint64_t inner = 0;
+    for (std::uint32_t i = 0; i < levels.nodes.size(); ++i)
+      if (levels.nodes[i].level < depth) {
+        chosen.push_back(i);
+        inner += levels.nodes[i].level + 1 < depth ? levels.nodes[i].points : 0;
+      }
+    const std::uint64_t found = found_of(chosen), count = count_of(chosen);
+    EXPECT_GE(count, found) << depth;
+    EXPECT_LE(count, found + inner) << depth;
+    if (depth == 1 || depth == levels.depth()) {
+      EXPECT_EQ(count, found) << depth;
+    }
+  }
+}
+
 TEST_F(WrittenLevels, OfOnePlaceTakeLittleMemory) {
   LasFile file;
   for (std::int32_t i = 0; i < 5000; ++i) {
