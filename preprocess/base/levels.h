@@ -9,6 +9,9 @@
 
 namespace splatray {
 
+/// The column of means of points that says how many each is of; 0: it is a point.
+inline constexpr const char* COLUMN_POINT_COUNT = "PointCount";
+
 /// A cube with some of the points that lie in it; its children have others, which are nearer to each other.
 struct LevelNode {
   static constexpr std::uint32_t NO_PARENT = std::numeric_limits<std::uint32_t>::max();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "preprocess/base/levels.h"
 #include "preprocess/points.h"
 
 namespace splatray {
@@ -20,7 +21,7 @@ inline constexpr const char* TILE_INTENSITY = "Intensity";
 inline constexpr const char* TILE_CLASS = "Classification";
 inline constexpr const char* TILE_WITHHELD = "Withheld";
 /// How many points a mean of points is of.
-inline constexpr const char* TILE_COUNT = "PointCount";
+inline constexpr const char* TILE_COUNT = COLUMN_POINT_COUNT;
 
 /// One number of a record: value = scale * number + offset.
 struct TileField {

@@ -196,7 +196,6 @@ TEST_F(WrittenLevels, HaveMeansForNodesThatAreNotRead) {
     std::mt19937 random(seed);
     std::vector<bool> is_chosen(levels.nodes.size());
     ReadOptions options;
-    options.scans.attributes = {TILE_COUNT};
     std::vector<std::uint32_t>& chosen = options.nodes[ept("levels")];
     for (std::uint32_t i = 0; i < levels.nodes.size(); ++i) {
       is_chosen[i] = i == 0 || (is_chosen[levels.nodes[i].parent] && random() % 3 > 0);
