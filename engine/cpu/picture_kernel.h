@@ -45,6 +45,9 @@ void run_pictures(const KernelWork& work, std::uint32_t group, Counts& counts) {
     if (!find_pixel(in_tile)) return;
     if (!std::exchange(opened, true)) tile_now = open_group_tile();
     slot_now = tile_slot();
+#ifndef LIT
+    if (show_background(in_tile)) return;
+#endif
     trace_pixel(in_tile);
   });
   tile_now = nullptr;

@@ -101,3 +101,20 @@ uint tile_slot() {
   const uvec2 in_group = tile_pixel(0u);
   return ORDER == ORDER_LINEAR ? in_group.x : in_group.y * 8u + in_group.x;
 }
+
+#ifndef LIT
+/// Ends a pixel whose rays are known to meet nothing, without tracing them; false for others.
+bool show_background(uvec2 in_tile) {
+  if (tile_now == nullptr || tile_now->full || !pixel_is_empty(*tile_now) || OUTPUT == OUTPUT_AOV) return false;
+  const bool alike = frame.background.x >= 0.0f || !ENVIRONMENT;
+  const uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
+  const uint place = frame.tile_first + in_tile.y * frame.tile_width + in_tile.x;
+  vec4 mean = mean_before(place);
+  for (uint sample = frame.sample_begin; sample < frame.sample_end; ++sample) {
+    const vec3 dir = alike ? vec3(0.0f) : sample_ray(pixel, sample).dir;
+    mean = add_to_mean(mean, background_radiance(dir), 0.0f, sample);
+  }
+  keep_mean(place, mean);
+  return true;
+}
+#endif
