@@ -105,7 +105,8 @@ uint tile_slot() {
 #ifndef LIT
 /// Ends a pixel whose rays are known to meet nothing, without tracing them; false for others.
 bool show_background(uvec2 in_tile) {
-  if (tile_now == nullptr || tile_now->full || !pixel_is_empty(*tile_now) || OUTPUT == OUTPUT_AOV) return false;
+  if (tile_now == nullptr || tile_now->full || !pixel_is_empty(*tile_now) || OUTPUT == OUTPUT_AOV)
+    return false;
   const bool alike = frame.background.x >= 0.0f || !ENVIRONMENT;
   const uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
   const uint place = frame.tile_first + in_tile.y * frame.tile_width + in_tile.x;

@@ -109,6 +109,28 @@ TEST(Tile, InEveryLookAndOrder) {
   expect_same_pictures(scene, some_cameras(), settings);
 }
 
+/// Pixels that meet nothing get what is around without a ray.
+TEST(Tile, EmptyPixelsShowWhatIsAround) {
+  const Scene scene = ball_in_box();
+  const HostDevice device;
+  ShownTracer tracer(device);
+  tracer.upload(scene);
+  Environment bright{16, 8, {}, {}};
+  for (std::uint32_t i = 0; i < 16 * 8; ++i)
+    bright.texels.emplace_back(0.1F * static_cast<float>(i % 7), 0.3F, 0.01F * static_cast<float>(i));
+  Settings settings;
+  settings.samples = 20;
+  for (const Environment& environment : {bright, Environment{0, 0, {}, glm::vec3(0.3F, 0.2F, 0.7F)}}) {
+    tracer.set_environment(environment);
+    for (const bool background : {false, true}) {
+      settings.background.reset();
+      if (background) settings.background = glm::vec3(0.1F, 0.9F, 0.3F);
+      for (const Camera& camera : some_cameras())
+        EXPECT_EQ(different_pixels(tracer, {camera, 45, 35}, settings), 0U) << "background " << background;
+    }
+  }
+}
+
 TEST(Tile, WithEveryBlendAndRegions) {
   const Scene scene = ball_in_box();
   Settings settings;
