@@ -19,6 +19,8 @@ struct DeviceProfile {
   std::uint32_t paths_most = UINT32_MAX;    ///< of a pixel in a dispatch, of several rays each
   std::uint32_t rays_most = UINT32_MAX;     ///< of a thread in a dispatch
   std::uint32_t lights_most = LIGHTS_MOST;  ///< of a dispatch
+  /// Dispatches that are handed over before the first is waited for, at most IN_FLIGHT_MOST.
+  std::uint32_t in_flight = 1;
 
   /// The most work of a thread whose paths have up to `path_rays` rays, >= 1, and meet `lights` lights.
   [[nodiscard]] ThreadWork work(std::uint32_t path_rays, std::uint32_t lights) const;

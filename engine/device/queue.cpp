@@ -1,10 +1,16 @@
 #include "engine/device/queue.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "engine/device/paged_buffer.h"
 
 namespace splatray {
+
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 bool Paging::paged() const {
   return std::any_of(pages.begin(), pages.end(), [](std::uint32_t count) { return count > 1; });
@@ -16,7 +22,9 @@ void Bindings::bind(std::uint32_t binding, const PagedBuffer& buffer) {
 }
 
 void Queue::reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes) {
-  if (!buffer || buffer->size() < bytes) buffer = make_buffer(bytes);
+  if (buffer && buffer->size() >= bytes) return;
+  finish();
+  buffer = make_buffer(bytes);
 }
 
 }  // namespace splatray

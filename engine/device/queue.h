@@ -14,11 +14,16 @@
 
 namespace splatray {
 
+/// A number that no other call gives. From any thread.
+[[nodiscard]] std::uint64_t next_id();
+
 /// Memory on a device, of at least 16 bytes, so that an empty array is a buffer too.
 class Buffer {
  public:
   virtual ~Buffer() = default;
   [[nodiscard]] std::uint64_t size() const { return size_; }
+  /// That of no other memory, not even of what was freed before.
+  [[nodiscard]] std::uint64_t id() const { return id_; }
 
  protected:
   explicit Buffer(std::uint64_t size = 0) : size_(size) {}
@@ -27,6 +32,7 @@ class Buffer {
 
  private:
   std::uint64_t size_;
+  std::uint64_t id_ = next_id();
 };
 
 /// The environment's texture: bilinear, repeating in columns, clamped in rows.
@@ -36,7 +42,11 @@ class DeviceTexture {
   virtual ~DeviceTexture() = default;
   DeviceTexture(const DeviceTexture&) = delete;
   DeviceTexture& operator=(const DeviceTexture&) = delete;
-  [[nodiscard]] virtual std::uint64_t size() const = 0;  ///< bytes of its texels
+  [[nodiscard]] virtual std::uint64_t size() const = 0;   ///< bytes of its texels
+  [[nodiscard]] std::uint64_t id() const { return id_; }  ///< as Buffer's
+
+ private:
+  const std::uint64_t id_ = next_id();
 };
 
 class PagedBuffer;
@@ -60,7 +70,7 @@ class Bindings {
   Bindings(const Bindings&) = delete;
   Bindings& operator=(const Bindings&) = delete;
 
-  /// Points one binding to a buffer, or to a page of a pool.
+  /// Points one binding to a buffer, or to a page of a pool; once all is done that was begun where it was another.
   virtual void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page = 0) = 0;
   /// Points the environment's binding to a texture.
   virtual void bind(const DeviceTexture& texture) = 0;
@@ -78,7 +88,10 @@ struct Ran {
   Counters counted{};  ///< of dispatches that count
 };
 
-/// Does one thing after the other and waits for each. One thread at a time.
+/// Most dispatches of a queue that were begun and not ended.
+inline constexpr std::uint32_t IN_FLIGHT_MOST = 2;
+
+/// Does one thing after the other and waits for each, but for dispatches that are begun. One thread at a time.
 class Queue {
  public:
   Queue() = default;
@@ -101,18 +114,26 @@ class Queue {
                                                      [[maybe_unused]] std::shared_ptr<const void> keeper) {
     return nullptr;
   }
-  /// Copies to the buffer's bytes from `begin` on; at most to its end.
+  /// Copies to the buffer's bytes from `begin` on; at most to its end. As download, behind all that was begun.
   virtual void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin = 0) = 0;
   /// Copies from the buffer's start.
   virtual void download(const Buffer& buffer, std::span<std::byte> bytes) = 0;
+  /// Waits for all that was begun, too.
   virtual Ran run(const Dispatch& dispatch, const Bindings& bindings) = 0;
+  /// Begins a dispatch that counts nothing, behind those before it: where fewer than IN_FLIGHT_MOST were begun and not ended. What it
+  /// uses must stay, and its bindings as they are, until it is ended or all was waited for.
+  virtual void begin(const Dispatch& dispatch, const Bindings& bindings) = 0;
+  /// Waits for the dispatch that was begun first and not yet ended.
+  virtual Ran end() = 0;
+  /// Waits for all that was begun, which is still to be ended.
+  virtual void finish() = 0;
   /// Begins to build a dispatch's program on a thread of its own, so that run() waits for less of it, on devices that build them.
   virtual void prepare([[maybe_unused]] const Dispatch& dispatch, [[maybe_unused]] const Bindings& bindings) {
   }
   /// Programs compiled since construction.
   [[nodiscard]] virtual std::uint32_t programs_built() const = 0;
 
-  /// Makes a buffer at least that large; keeps it when it is.
+  /// Makes a buffer at least that large, once all is done that was begun; keeps it when it is.
   void reserve(std::unique_ptr<Buffer>& buffer, std::uint64_t bytes);
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -32,13 +33,25 @@ double trace_samples(Runner& runner, TileDispatch& tile, std::uint32_t begin, st
   // The device counts in 32 bits, which many samples of a large tile would overflow.
   const std::uint32_t most = has(tile.dispatch.constants, FEATURE_COUNTERS) ? 1 : work.samples;
   double all_ms = 0.0;
-  for (std::uint32_t sample = begin; sample < end;) {
-    const std::uint32_t next = sample + std::min(batch, end - sample);
-    const double ms = runner.run_samples(tile, sample, next, work);
+  std::deque<std::uint32_t> begun;  // samples of each batch
+  const auto end_batch = [&] {
+    const std::uint32_t samples = begun.front();
+    begun.pop_front();
+    const double ms = runner.end_samples();
     all_ms += ms;
-    advance(next - sample);
-    batch = std::min(next_batch(next - sample, ms), most);
-    sample = next;
+    advance(samples);
+    batch = std::min(next_batch(samples, ms), most);
+  };
+  try {
+    for (std::uint32_t sample = begin; sample < end; sample += begun.back()) {
+      while (runner.is_busy()) end_batch();
+      begun.push_back(std::min(batch, end - sample));
+      runner.begin_samples(tile, sample, sample + begun.back(), work);
+    }
+    while (!begun.empty()) end_batch();
+  } catch (...) {
+    runner.finish();
+    throw;
   }
   return all_ms;
 }

@@ -52,19 +52,28 @@ bool Tracer::advance(double wanted_ms) {
   tile.dispatch.frame.mean_begin = frame.sample_begin + progressive.before.samples();
   ThreadWork work = impl.runner.work(progressive.dispatch);
   const std::uint32_t sample = frame.sample_begin + progressive.samples;
-  const double trace_ms = impl.runner.run_samples(tile, sample, sample + 1, {1, work.lights});
-  const double ms = milliseconds_since(start);
-  impl.stats.counters = impl.runner.counts;
-  impl.stats.trace_ms += trace_ms;
-  impl.stats.wall_ms += ms;
-  if (std::isfinite(wanted_ms)) progressive.rows = next_rows(rows, ms, wanted_ms, frame.height);
+  impl.runner.begin_samples(tile, sample, sample + 1, {1, work.lights});
+  progressive.rows_begun.push_back(rows);
   progressive.next_row += rows;
   if (progressive.next_row == frame.height) {
     progressive.next_row = 0;
     ++progressive.samples;
     if (progressive.samples < all) impl.end_block();
   }
+  while (!progressive.rows_begun.empty() && (progressive.samples == all || impl.runner.is_busy()))
+    impl.end_rows(wanted_ms);
+  impl.stats.counters = impl.runner.counts;
+  impl.stats.wall_ms += milliseconds_since(start);
   return progressive.samples == all;
+}
+
+void Tracer::Impl::end_rows(double wanted_ms) {
+  const std::uint32_t rows = progressive.rows_begun.front();
+  progressive.rows_begun.pop_front();
+  const double ms = runner.end_samples();
+  stats.trace_ms += ms;
+  if (std::isfinite(wanted_ms))
+    progressive.rows = next_rows(rows, ms, wanted_ms, progressive.dispatch.frame.height);
 }
 
 void Tracer::Impl::end_block() {

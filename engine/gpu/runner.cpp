@@ -19,7 +19,8 @@ Runner::Runner(const Device& its_device, const TracerOptions& options)
     : device(its_device),
       profile(device.profile()),
       queue(device.make_queue({options.pipeline_folder, options.threads, options.vector_bits})),
-      scene(device, *queue, options.pools) {
+      scene(device, *queue, options.pools),
+      in_flight_most_(options.in_flight > 0 ? options.in_flight : profile.in_flight) {
   for (std::unique_ptr<Buffer>* buffer : {&accumulation, &aov, &rays, &hits, &groups_})
     queue->reserve(*buffer, 0);
 }
@@ -48,13 +49,51 @@ double Runner::run(const Dispatch& dispatch) {
 }
 
 double Runner::run(const TileDispatch& tile) {
-  if (tile.group_list != group_list_) {
-    group_list_ = tile.group_list;
-    queue->reserve(groups_, std::span(group_list_).size_bytes());
-    scene.bindings().bind(BIND_GROUPS, *groups_);
-    queue->upload(*groups_, std::as_bytes(std::span(group_list_)));
-  }
+  take_groups(tile);
   return tile.dispatch.groups_x > 0 ? run(tile.dispatch) : 0.0;
+}
+
+/// Brings a tile's groups to the device, unless they are the first of those that are there.
+void Runner::take_groups(const TileDispatch& tile) {
+  const std::vector<std::uint32_t>& list = tile.group_list;
+  if (list.size() <= group_list_.size() && std::equal(list.begin(), list.end(), group_list_.begin())) return;
+  group_list_ = list;
+  queue->reserve(groups_, std::span(group_list_).size_bytes());
+  scene.bindings().bind(BIND_GROUPS, *groups_);
+  queue->upload(*groups_, std::as_bytes(std::span(group_list_)));
+}
+
+void Runner::begin(const Dispatch& dispatch) {
+  if (dispatch.groups_x == 0) return;
+  if (dispatch.counts_work()) return void(begun_.back().ms += run(dispatch));
+  while (in_flight_ >= in_flight_most_) end_first();
+  queue->begin(dispatch, scene.bindings());
+  ++in_flight_;
+  ++begun_.back().dispatches;
+}
+
+void Runner::end_first() {
+  const auto first =
+      std::find_if(begun_.begin(), begun_.end(), [](const Begun& samples) { return samples.dispatches > 0; });
+  first->ms += queue->end().ms;
+  --first->dispatches;
+  --in_flight_;
+  scene.require_whole();
+}
+
+double Runner::end_samples() {
+  while (begun_.front().dispatches > 0) end_first();
+  const double ms = begun_.front().ms;
+  begun_.pop_front();
+  return ms;
+}
+
+void Runner::finish() {
+  while (in_flight_ > 0) {
+    --in_flight_;
+    queue->end();
+  }
+  begun_.clear();
 }
 
 Dispatch Runner::picture_dispatch(const View& view, const Settings& settings) const {
@@ -82,23 +121,24 @@ ThreadWork Runner::work(const Dispatch& dispatch) const {
   return profile.work(1 + dispatch.frame.max_bounces, lights);
 }
 
-double Runner::run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
+void Runner::begin_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end,
                            const ThreadWork& work) {
   const std::uint32_t lights = lights_at_hit(tile.dispatch);
+  take_groups(tile);
+  begun_.emplace_back();
   tile.set_samples(begin, end);
-  if (tile.dispatch.program == Program::light) return run(tile);
+  if (tile.dispatch.program == Program::light) return this->begin(tile.dispatch);
   tile.set_lights(0, std::min(work.lights, lights));
-  double ms = run(tile);
-  if (lights <= work.lights) return ms;
+  this->begin(tile.dispatch);
+  if (lights <= work.lights) return;
   TileDispatch more = tile;
   more.dispatch.frame.environment = vec3(0.0F);
   std::fill(std::begin(more.dispatch.frame.irradiance), std::end(more.dispatch.frame.irradiance), vec4(0.0F));
   for (std::uint32_t light = work.lights; light < lights; light += work.lights) {
     more.set_lights(light, std::min(light + work.lights, lights));
-    ms += run(more);
+    this->begin(more.dispatch);
   }
   tile.set_lights(0, lights);
-  return ms;
 }
 
 void Runner::trace_aov(const Tile& tile, const Dispatch& dispatch, std::vector<AovPixel>& image,

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -17,7 +18,8 @@ class Runner {
   /// The device must outlive it.
   Runner(const Device& device, const TracerOptions& options);
 
-  /// Binds everything a dispatch reads or writes; to be called where any of it may have changed.
+  /// Binds everything a dispatch reads or writes; to be called where any of it may have changed. Waits for what was begun where some
+  /// has.
   void bind(const Buffer& accumulation);
   /// Runs one dispatch, or that of a tile, and waits; returns the device's milliseconds and adds what was counted to `counts`.
   double run(const Dispatch& dispatch);
@@ -29,8 +31,14 @@ class Runner {
   [[nodiscard]] Dispatch aov_dispatch(const View& view, const Settings& settings) const;
   /// How much of it a dispatch may do.
   [[nodiscard]] ThreadWork work(const Dispatch& dispatch) const;
-  /// Runs samples [begin, end) of a tile, the lights spread over as many dispatches as `work` asks for.
-  double run_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end, const ThreadWork& work);
+  /// Begins samples [begin, end) of a tile, the lights spread over as many dispatches as `work` asks for.
+  void begin_samples(TileDispatch& tile, std::uint32_t begin, std::uint32_t end, const ThreadWork& work);
+  /// Whether as many times samples were begun and not ended as the device is given at once.
+  [[nodiscard]] bool is_busy() const { return begun_.size() >= in_flight_most_; }
+  /// Waits for the samples that were begun first and not yet ended; returns the device's milliseconds, and counts as run().
+  double end_samples();
+  /// Waits for all that was begun, of which nothing is to be ended any more.
+  void finish();
   /// AovPixels of a tile, put into `image` of `width` columns, top row first. `dispatch`: aov_dispatch's.
   void trace_aov(const Tile& tile, const Dispatch& dispatch, std::vector<AovPixel>& image,
                  std::uint32_t width);
@@ -50,8 +58,21 @@ class Runner {
   Counters counts{};                        ///< summed over dispatches that count
 
  private:
+  /// What begin_samples began.
+  struct Begun {
+    std::uint32_t dispatches = 0;  ///< that are not ended
+    double ms = 0.0;               ///< of those that are
+  };
+
+  void take_groups(const TileDispatch& tile);
+  void begin(const Dispatch& dispatch);
+  void end_first();
+
   std::unique_ptr<Buffer> groups_;
   std::vector<std::uint32_t> group_list_;  ///< what groups_ holds
+  const std::uint32_t in_flight_most_;
+  std::uint32_t in_flight_ = 0;  ///< dispatches begun and not ended
+  std::deque<Begun> begun_;
 };
 
 /// Puts a tile's values into an image of `width` columns.

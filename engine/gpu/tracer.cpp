@@ -20,9 +20,23 @@ void report(const Tracer::Progress& progress, double share, bool may_stop) {
     throw Error(ExitCode::interrupted, "rendering was interrupted");
 }
 
+Tracer::Impl::~Impl() {
+  try {
+    finish_begun();
+  } catch (const std::exception&) {
+    // The device was lost: it does nothing more.
+  }
+}
+
 void Tracer::Impl::start() {
+  finish_begun();
   stats = {};
   runner.counts = {};
+}
+
+void Tracer::Impl::finish_begun() {
+  runner.finish();
+  progressive.rows_begun.clear();
 }
 
 void Tracer::Impl::finish(Clock::time_point start) {
@@ -36,11 +50,13 @@ Tracer::Tracer(const Device& device, const TracerOptions& options)
 Tracer::~Tracer() = default;
 
 void Tracer::upload(const Scene& scene) {
+  impl_->finish_begun();
   impl_->runner.scene.upload(scene);
   ++impl_->uploads;
 }
 
 void Tracer::upload_and_free(Scene& scene) {
+  impl_->finish_begun();
   impl_->runner.scene.upload_and_free(scene);
   ++impl_->uploads;
 }

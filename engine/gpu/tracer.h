@@ -40,6 +40,7 @@ struct TracerOptions {
   PoolRequest pools{};                     ///< for tests and benchmarks
   unsigned threads = 0;                    ///< of the host's CPU as the device; 0 = one a core
   std::uint32_t vector_bits = UINT32_MAX;  ///< QueueOptions::vector_bits, for tests and benchmarks
+  std::uint32_t in_flight = 0;             ///< DeviceProfile::in_flight, for tests; 0 = the device's
 };
 
 /// What becomes of an image whose tracing `progress` stops.
@@ -96,7 +97,8 @@ class Tracer {
   /// Throws Error (out_of_memory) for more pixels than the device lets a buffer hold.
   void begin(const Look& look, const View& view, const Settings& settings);
   /// Adds one sample to some rows of the picture begun, aiming at `wanted_ms` of work, infinity: to all that lack it; returns whether
-  /// all of Settings::samples are in every pixel. After upload() begin() must come first.
+  /// all of Settings::samples are in every pixel. After upload() begin() must come first. The device may still be at it, and stats()
+  /// lack its time, until all of them are.
   bool advance(double wanted_ms);
   [[nodiscard]] std::uint32_t samples() const;  ///< in every pixel of the picture begun
   /// The picture begun: each pixel the mean of its samples so far, black without one.

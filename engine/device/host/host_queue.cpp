@@ -94,6 +94,12 @@ void HostQueue::download(const Buffer& buffer, std::span<std::byte> bytes) {
   if (!bytes.empty()) std::memcpy(bytes.data(), static_cast<const HostBuffer&>(buffer).data(), bytes.size());
 }
 
+Ran HostQueue::end() {
+  const Ran ran = begun_.front();
+  begun_.pop_front();
+  return ran;
+}
+
 Ran HostQueue::run(const Dispatch& dispatch, const Bindings& bindings) {
   const auto start = std::chrono::steady_clock::now();
   KernelWork work = static_cast<const HostBindings&>(bindings).work();

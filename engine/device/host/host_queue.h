@@ -1,5 +1,7 @@
 /// Memory of the host, and the programs as C++ that run on its threads.
 #pragma once
+#include <deque>
+
 #include "engine/cpu/kernel.h"
 #include "engine/device/queue.h"
 
@@ -61,11 +63,18 @@ class HostQueue final : public Queue {
   void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;
   void download(const Buffer& buffer, std::span<std::byte> bytes) override;
   Ran run(const Dispatch& dispatch, const Bindings& bindings) override;
+  /// Runs it: the host has nothing else to do.
+  void begin(const Dispatch& dispatch, const Bindings& bindings) override {
+    begun_.push_back(run(dispatch, bindings));
+  }
+  Ran end() override;
+  void finish() override {}
   [[nodiscard]] std::uint32_t programs_built() const override { return 0; }
 
  private:
   const unsigned threads_;
   const WideFunctions& functions_;
+  std::deque<Ran> begun_;  ///< and not ended
 };
 
 }  // namespace splatray

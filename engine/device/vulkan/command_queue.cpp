@@ -76,11 +76,8 @@ void begin_commands(VkCommandBuffer commands) {
   check(vkBeginCommandBuffer(commands, &begin), "recording commands");
 }
 
-CommandQueue::CommandQueue(const VulkanDevice& vulkan, const SharedQueue& queue)
-    : vulkan_(vulkan),
-      queue_(queue),
-      pool_(make_command_pool(vulkan)),
-      commands_(make_commands(vulkan, pool_.get())) {
+Submission::Submission(const VulkanDevice& vulkan, VkCommandPool pool)
+    : vulkan_(vulkan), commands_(make_commands(vulkan, pool)) {
   VkFenceCreateInfo fence_info{};
   fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
   VkFence fence = VK_NULL_HANDLE;
@@ -99,12 +96,13 @@ CommandQueue::CommandQueue(const VulkanDevice& vulkan, const SharedQueue& queue)
   }
 }
 
-double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
+void Submission::record(const std::function<void(VkCommandBuffer)>& record) {
   begin_commands(commands_);
   const VkQueryPool queries = timestamps_.get();
   if (queries != VK_NULL_HANDLE) {
     vkCmdResetQueryPool(commands_, queries, 0, 2);
-    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, queries, 0);
+    // Once all that was handed over before is done.
+    vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries, 0);
   }
   try {
     record(commands_);
@@ -117,25 +115,27 @@ double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
   if (queries != VK_NULL_HANDLE)
     vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries, 1);
   check(vkEndCommandBuffer(commands_), "recording commands");
-
-  const auto start = std::chrono::steady_clock::now();
-  submit_and_wait();
-  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  return queries != VK_NULL_HANDLE ? timestamps_ms() : wall.count();
 }
 
-void CommandQueue::submit_and_wait() {
+void Submission::submit(const SharedQueue& queue, const std::function<void(VkCommandBuffer)>& record) {
+  this->record(record);
+  start_ = std::chrono::steady_clock::now();
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands_;
-  VkFence fence = fence_.get();
-  check(queue_.submit(submit, fence), "submitting work to the device");
-  check(vkWaitForFences(vulkan_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the device");
-  check(vkResetFences(vulkan_.device, 1, &fence), "resetting a fence");
+  check(queue.submit(submit, fence_.get()), "submitting work to the device");
 }
 
-double CommandQueue::timestamps_ms() const {
+double Submission::wait() {
+  VkFence fence = fence_.get();
+  check(vkWaitForFences(vulkan_.device, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the device");
+  check(vkResetFences(vulkan_.device, 1, &fence), "resetting a fence");
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start_;
+  return timestamps_.get() != VK_NULL_HANDLE ? timestamps_ms() : wall.count();
+}
+
+double Submission::timestamps_ms() const {
   std::uint64_t ticks[2] = {};
   check(vkGetQueryPoolResults(vulkan_.device, timestamps_.get(), 0, 2, sizeof(ticks), ticks, sizeof(ticks[0]),
                               VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
@@ -144,9 +144,56 @@ double CommandQueue::timestamps_ms() const {
   return passed * static_cast<double>(vulkan_.properties.limits.timestampPeriod) * 1e-6;
 }
 
+CommandQueue::CommandQueue(const VulkanDevice& vulkan, const SharedQueue& queue)
+    : vulkan_(vulkan),
+      queue_(queue),
+      pool_(make_command_pool(vulkan)),
+      own_(vulkan, pool_.get()),
+      in_flight_{Submission(vulkan, pool_.get()), Submission(vulkan, pool_.get())} {
+  static_assert(IN_FLIGHT_MOST == 2);
+}
+
+CommandQueue::~CommandQueue() {
+  try {
+    finish();
+  } catch (const std::exception&) {
+    // The device was lost: nothing of it is waited for.
+  }
+}
+
+double CommandQueue::run(const std::function<void(VkCommandBuffer)>& record) {
+  own_.submit(queue_, record);
+  return own_.wait();
+}
+
+void CommandQueue::begin(const std::function<void(VkCommandBuffer)>& record) {
+  assert(begun_ - ended_ < IN_FLIGHT_MOST);
+  in_flight_[begun_ % IN_FLIGHT_MOST].submit(queue_, record);
+  ++begun_;
+}
+
+double CommandQueue::end() {
+  assert(ended_ < begun_);
+  const std::size_t place = ended_ % IN_FLIGHT_MOST;
+  if (waited_ == ended_) {
+    ++waited_;
+    ms_[place] = in_flight_[place].wait();
+  }
+  ++ended_;
+  return ms_[place];
+}
+
+void CommandQueue::finish() {
+  while (waited_ < begun_) {
+    const std::size_t place = waited_++ % IN_FLIGHT_MOST;
+    ms_[place] = in_flight_[place].wait();
+  }
+}
+
 void CommandQueue::upload(VulkanBuffer& buffer, std::span<const std::byte> bytes, VkDeviceSize begin) {
   assert(begin + bytes.size() <= buffer.size());
   if (bytes.empty()) return;
+  finish();
   if (buffer.mapped() != nullptr) {
     // Where the memory is new, most of the time goes into its pages, which all cores make at once.
     constexpr std::size_t SLICE = std::size_t{1} << 20U;
@@ -170,6 +217,7 @@ void CommandQueue::upload(VulkanBuffer& buffer, std::span<const std::byte> bytes
 void CommandQueue::download(const VulkanBuffer& buffer, std::span<std::byte> bytes) {
   assert(bytes.size() <= buffer.size());
   if (bytes.empty()) return;
+  finish();
   if (buffer.mapped() != nullptr) {
     std::memcpy(bytes.data(), buffer.mapped(), bytes.size());
     return;

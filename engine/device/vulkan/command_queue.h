@@ -1,9 +1,12 @@
-/// Work for the device, one submission at a time.
+/// Work for the device, one submission behind the other.
 #pragma once
+#include <array>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <span>
 
+#include "engine/device/queue.h"
 #include "engine/device/vulkan/buffer.h"
 #include "engine/device/vulkan/handle.h"
 #include "engine/device/vulkan/vulkan_device.h"
@@ -25,19 +28,51 @@ void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
 /// Begins to record what is submitted once.
 void begin_commands(VkCommandBuffer commands);
 
-/// Records, submits and waits. One thread at a time. The device must outlive it.
+/// A command buffer that is recorded anew for each submission, and what says when the device has done it.
+class Submission {
+ public:
+  /// `pool` has its commands. The device must outlive it.
+  Submission(const VulkanDevice& vulkan, VkCommandPool pool);
+
+  /// Hands over what `record` records; what that writes is visible to host and device once it was waited for. Not before
+  /// it was waited for again.
+  void submit(const SharedQueue& queue, const std::function<void(VkCommandBuffer)>& record);
+  /// Waits for it. Returns the milliseconds it took on the device, or on the wall clock where the device has no timestamps.
+  double wait();
+
+ private:
+  void record(const std::function<void(VkCommandBuffer)>& record);
+  [[nodiscard]] double timestamps_ms() const;
+
+  const VulkanDevice& vulkan_;
+  VkCommandBuffer commands_;
+  Handle<VkFence, vkDestroyFence> fence_;
+  Handle<VkQueryPool, vkDestroyQueryPool> timestamps_;  ///< null where the queue has none
+  std::uint64_t timestamp_mask_ = 0;
+  std::chrono::steady_clock::time_point start_{};
+};
+
+/// One thread at a time. The device must outlive it.
 class CommandQueue {
  public:
   explicit CommandQueue(const VulkanDevice& vulkan) : CommandQueue(vulkan, *vulkan.queue) {}
   /// Hands its work to another queue than the device's first.
   CommandQueue(const VulkanDevice& vulkan, const SharedQueue& queue);
+  /// Waits for what was begun.
+  ~CommandQueue();
   CommandQueue(const CommandQueue&) = delete;
   CommandQueue& operator=(const CommandQueue&) = delete;
 
-  /// Runs the commands that `record` records and waits for them; what they wrote is then visible to host and
-  /// device. Returns the milliseconds they took on the device, or on the wall clock where the device has no
-  /// timestamps.
+  /// Runs the commands that `record` records and waits for them, and so for all that was begun; what they wrote is then visible to
+  /// host and device. Returns as Submission::wait.
   double run(const std::function<void(VkCommandBuffer)>& record);
+
+  /// Begins what `record` records, behind all that was begun before: fewer than IN_FLIGHT_MOST that were not ended.
+  void begin(const std::function<void(VkCommandBuffer)>& record);
+  /// Waits for what was begun first and not yet ended, as run() does.
+  double end();
+  /// Waits for all that was begun, which is still to be ended.
+  void finish();
 
   /// As Queue's.
   void upload(VulkanBuffer& buffer, std::span<const std::byte> bytes, VkDeviceSize begin = 0);
@@ -47,16 +82,13 @@ class CommandQueue {
   [[nodiscard]] const VulkanBuffer& staging(VkDeviceSize bytes);
 
  private:
-  void submit_and_wait();
-  [[nodiscard]] double timestamps_ms() const;
-
   const VulkanDevice& vulkan_;
   const SharedQueue& queue_;
   Handle<VkCommandPool, vkDestroyCommandPool> pool_;
-  Handle<VkFence, vkDestroyFence> fence_;
-  Handle<VkQueryPool, vkDestroyQueryPool> timestamps_;  ///< null where the queue has none
-  std::uint64_t timestamp_mask_ = 0;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  Submission own_;                                    ///< of run()
+  std::array<Submission, IN_FLIGHT_MOST> in_flight_;  ///< of begin(), in turn
+  std::uint64_t begun_ = 0, waited_ = 0, ended_ = 0;  ///< since construction; ended_ <= waited_ <= begun_
+  std::array<double, IN_FLIGHT_MOST> ms_{};           ///< of those waited for and not ended
   VulkanBuffer staging_;
 };
 

@@ -32,7 +32,7 @@ bool finds_remainders(const VulkanDevice& vulkan, CommandQueue& commands, const 
   std::memcpy(frame.region, products.data(), sizeof(products));
   Paging paging;
   paging.pages.fill(1);
-  VulkanBindings bindings(vulkan, paging);
+  VulkanBindings bindings(vulkan, commands, paging);
   const VulkanBuffer unused(vulkan, sizeof(uvec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   for (std::uint32_t binding = 0; binding < BINDINGS; ++binding)
     if (binding != BIND_ENVIRONMENT) bindings.bind(binding, unused, 0);

@@ -30,14 +30,25 @@ Handle<VkShaderModule, vkDestroyShaderModule> make_module(const VulkanDevice& vu
 
 }  // namespace
 
-VulkanBindings::VulkanBindings(const VulkanDevice& vulkan, const Paging& paging)
-    : set_(vulkan, bindings_of(paging)) {}
+VulkanBindings::VulkanBindings(const VulkanDevice& vulkan, CommandQueue& queue, const Paging& paging)
+    : queue_(queue), set_(vulkan, bindings_of(paging)) {}
+
+/// Whether the binding was another's, once no work reads it.
+bool VulkanBindings::takes(std::uint32_t binding, std::uint32_t page, std::uint64_t id) {
+  std::uint64_t& bound = bound_[{binding, page}];
+  if (bound == id) return false;
+  queue_.finish();
+  bound = id;
+  return true;
+}
 
 void VulkanBindings::bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) {
-  set_.write(binding, static_cast<const VulkanBuffer&>(buffer).get(), page);
+  if (takes(binding, page, buffer.id()))
+    set_.write(binding, static_cast<const VulkanBuffer&>(buffer).get(), page);
 }
 
 void VulkanBindings::bind(const DeviceTexture& texture) {
+  if (!takes(BIND_ENVIRONMENT, 0, texture.id())) return;
   const auto& environment = static_cast<const EnvironmentTexture&>(texture);
   set_.write(BIND_ENVIRONMENT, VkDescriptorImageInfo{environment.sampler(), environment.view(),
                                                      VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});

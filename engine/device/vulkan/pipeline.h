@@ -7,9 +7,11 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "engine/device/queue.h"
 #include "engine/device/vulkan/buffer.h"
+#include "engine/device/vulkan/command_queue.h"
 #include "engine/device/vulkan/descriptor_set.h"
 #include "engine/device/vulkan/pipeline_store.h"
 
@@ -18,8 +20,8 @@ namespace splatray {
 /// The descriptor set (set 0, bindings BIND_*) shared by all programs of one paging, and its pipeline layout.
 class VulkanBindings final : public Bindings {
  public:
-  /// The device must outlive it, and be idle whenever something is bound.
-  VulkanBindings(const VulkanDevice& vulkan, const Paging& paging);
+  /// Device and queue, whose work it is of, must outlive it.
+  VulkanBindings(const VulkanDevice& vulkan, CommandQueue& queue, const Paging& paging);
 
   using Bindings::bind;
   void bind(std::uint32_t binding, const Buffer& buffer, std::uint32_t page) override;
@@ -29,7 +31,11 @@ class VulkanBindings final : public Bindings {
   [[nodiscard]] const SharedLayout& layout() const { return set_.layout(); }
 
  private:
+  [[nodiscard]] bool takes(std::uint32_t binding, std::uint32_t page, std::uint64_t id);
+
+  CommandQueue& queue_;
   DescriptorSet set_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> bound_;  ///< ids by binding and page
 };
 
 /// What a pipeline is made of, and so its name in the cache.

@@ -15,6 +15,8 @@ DeviceProfile VulkanDevice::profile() const {
   } else {
     // A dispatch of more would take long enough for drivers that stop long work.
     profile.lights_most = 256;
+    // The host makes the next one ready meanwhile. A processor's driver would run the dispatches at which a person no longer looks.
+    profile.in_flight = IN_FLIGHT_MOST;
   }
   return profile;
 }

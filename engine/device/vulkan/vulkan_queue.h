@@ -18,14 +18,19 @@ class VulkanQueue final : public Queue {
   void upload(Buffer& buffer, std::span<const std::byte> bytes, std::uint64_t begin) override;
   void download(const Buffer& buffer, std::span<std::byte> bytes) override;
   Ran run(const Dispatch& dispatch, const Bindings& bindings) override;
+  void begin(const Dispatch& dispatch, const Bindings& bindings) override;
+  Ran end() override { return {commands_.end(), {}}; }
+  void finish() override { commands_.finish(); }
   void prepare(const Dispatch& dispatch, const Bindings& bindings) override;
   [[nodiscard]] std::uint32_t programs_built() const override { return pipelines_.built(); }
 
  private:
+  void record(const Dispatch& dispatch, const VulkanBindings& bound, VkCommandBuffer commands);
+
   const VulkanDevice& vulkan_;
-  CommandQueue commands_;
   PipelineCache pipelines_;
   VulkanBuffer frame_, counters_;
+  CommandQueue commands_;  ///< behind what its work uses
   const bool fuses_;
 };
 
