@@ -13,6 +13,15 @@ namespace {
 
 constexpr VkDeviceSize STAGING_BYTES = VkDeviceSize{64} << 20U;
 
+/// Where memory or file is new, most of the time goes into its pages, which all cores make at once.
+void copy(std::span<const std::byte> bytes, std::byte* target) {
+  constexpr std::size_t SLICE = std::size_t{1} << 20U;
+  on_all_cores((bytes.size() + SLICE - 1) / SLICE, [&](std::size_t slice) {
+    const std::size_t at = slice * SLICE;
+    std::memcpy(target + at, bytes.data() + at, std::min(SLICE, bytes.size() - at));
+  });
+}
+
 std::uint32_t timestamp_bits(const VulkanDevice& vulkan) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(vulkan.physical_device, &count, nullptr);
@@ -149,6 +158,7 @@ CommandQueue::CommandQueue(const VulkanDevice& vulkan, const SharedQueue& queue)
       queue_(queue),
       pool_(make_command_pool(vulkan)),
       own_(vulkan, pool_.get()),
+      copies_{Submission(vulkan, pool_.get()), Submission(vulkan, pool_.get())},
       in_flight_{Submission(vulkan, pool_.get()), Submission(vulkan, pool_.get())} {
   static_assert(IN_FLIGHT_MOST == 2);
 }
@@ -194,24 +204,29 @@ void CommandQueue::upload(VulkanBuffer& buffer, std::span<const std::byte> bytes
   assert(begin + bytes.size() <= buffer.size());
   if (bytes.empty()) return;
   finish();
-  if (buffer.mapped() != nullptr) {
-    // Where the memory is new, most of the time goes into its pages, which all cores make at once.
-    constexpr std::size_t SLICE = std::size_t{1} << 20U;
-    on_all_cores((bytes.size() + SLICE - 1) / SLICE, [&](std::size_t slice) {
-      const std::size_t at = slice * SLICE;
-      std::memcpy(buffer.mapped() + begin + at, bytes.data() + at, std::min(SLICE, bytes.size() - at));
-    });
-    return;
-  }
+  if (buffer.mapped() != nullptr)
+    copy(bytes, buffer.mapped() + begin);
+  else
+    upload_staged(buffer, bytes, begin);
+}
+
+/// By turns through two halves of the staging buffer: the device copies one while the host, who may have to read a file for it, fills
+/// the other.
+void CommandQueue::upload_staged(VulkanBuffer& buffer, std::span<const std::byte> bytes, VkDeviceSize begin) {
+  constexpr std::size_t PIECE = STAGING_BYTES / 2;
   const VulkanBuffer& passed = staging(bytes.size());
-  for (std::size_t at = 0; at < bytes.size(); at += passed.size()) {
-    const std::size_t count = std::min<std::size_t>(passed.size(), bytes.size() - at);
-    std::memcpy(passed.mapped(), bytes.data() + at, count);
-    run([&](VkCommandBuffer commands) {
-      const VkBufferCopy region{0, begin + at, count};
+  const std::size_t pieces = (bytes.size() + PIECE - 1) / PIECE;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const std::size_t half = i % 2, from = i * PIECE, at = half * PIECE;
+    const std::span<const std::byte> piece = bytes.subspan(from, std::min(PIECE, bytes.size() - from));
+    if (i >= 2) copies_[half].wait();
+    copy(piece, passed.mapped() + at);
+    copies_[half].submit(queue_, [&](VkCommandBuffer commands) {
+      const VkBufferCopy region{at, begin + from, piece.size()};
       vkCmdCopyBuffer(commands, passed.get(), buffer.get(), 1, &region);
     });
   }
+  for (std::size_t i = pieces - std::min<std::size_t>(pieces, 2); i < pieces; ++i) copies_[i % 2].wait();
 }
 
 void CommandQueue::download(const VulkanBuffer& buffer, std::span<std::byte> bytes) {

@@ -82,10 +82,13 @@ class CommandQueue {
   [[nodiscard]] const VulkanBuffer& staging(VkDeviceSize bytes);
 
  private:
+  void upload_staged(VulkanBuffer& buffer, std::span<const std::byte> bytes, VkDeviceSize begin);
+
   const VulkanDevice& vulkan_;
   const SharedQueue& queue_;
   Handle<VkCommandPool, vkDestroyCommandPool> pool_;
   Submission own_;                                    ///< of run()
+  std::array<Submission, 2> copies_;                  ///< of upload_staged(), in turn
   std::array<Submission, IN_FLIGHT_MOST> in_flight_;  ///< of begin(), in turn
   std::uint64_t begun_ = 0, waited_ = 0, ended_ = 0;  ///< since construction; ended_ <= waited_ <= begun_
   std::array<double, IN_FLIGHT_MOST> ms_{};           ///< of those waited for and not ended
