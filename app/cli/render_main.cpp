@@ -102,7 +102,7 @@ int render(int argc, char** argv) {
   if (shot.request.view.xray)
     shown.open(loaded.scene);  // xray_image reads the splats
   else
-    shown.open_and_free(loaded.scene);
+    shown.open_and_free(loaded.scene, [&] { prepare_programs(shot, shown); });
   times.upload_ms = watch.lap_ms();
   expose(shot, shown, loaded.facts);
   times.exposure_ms = watch.lap_ms();

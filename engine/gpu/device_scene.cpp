@@ -35,38 +35,48 @@ DeviceScene::DeviceScene(const Device& device, Queue& queue, const PoolRequest& 
   upload_tables({});
 }
 
-void DeviceScene::upload(const Scene& scene, Scene* spent) {
+void DeviceScene::upload(const Scene& scene, Scene* spent, const Planned& planned) {
   if (queue_.walks_wide_tree() && !has_wide_tree(scene)) {
     Scene ordered = scene;
     if (spent != nullptr) for_each_pool([&](const auto& row) { spent->*row.pool = {}; });
     add_wide_tree(ordered);
-    upload(ordered, &ordered);
+    upload(ordered, &ordered, planned);
     return;
   }
   bindings_.reset();
   wide_nodes_.reset();
   pools_ = {};  // the device may not have room for two scenes
+  PoolRequest request = request_;
+  if (queue_.walks_wide_tree()) request.data = DataPool::references;
+  plan(scene, request);
+  try {
+    if (planned) planned();
+    const std::size_t splats = splat_count(scene);
+    if (queue_.walks_wide_tree())
+      wide_nodes_ = queue_.lend(std::as_bytes(std::span(scene.wide_nodes)), scene.wide_nodes.keeper());
+    if (spent != nullptr) spent->wide_nodes = {};
+    pools_ = upload_pools(queue_, plan_, scene, spent);
+    if (scene.mapping) scene.mapping->require_whole();
+    if (wide_nodes_) bindings_->bind_wide_tree(*wide_nodes_, splats);
+  } catch (...) {
+    bindings_.reset();
+    throw;
+  }
+}
+
+/// Learns all of a scene but its pools.
+void DeviceScene::plan(const Scene& scene, const PoolRequest& request) {
   shows_look_ = false;
   clip_content_ = clip_content(scene.clip_pool);
   leans_ = any_leans(scene.field_pool);
-  const std::size_t splats = splat_count(scene);
-  PoolRequest request = request_;
-  if (queue_.walks_wide_tree()) {
-    request.data = DataPool::references;
-    const auto nodes = std::as_bytes(std::span(scene.wide_nodes));
-    wide_nodes_ = queue_.lend(nodes, scene.wide_nodes.keeper());
-  }
-  if (spent != nullptr) spent->wide_nodes = {};
-  pools_ = Pools(queue_, device_.limits(), scene, request, spent);
-  if (scene.mapping) scene.mapping->require_whole();
-  bindings_ = queue_.make_bindings(pools_.paging);
-  if (wide_nodes_) bindings_->bind_wide_tree(*wide_nodes_, splats);
+  plan_ = PoolPlan(device_.limits(), scene, request);
   outline_ = {};
-  if (queue_.walks_wide_tree()) outline_.mapping = scene.mapping;  // elsewhere pools are copies by now
+  if (queue_.walks_wide_tree()) outline_.mapping = scene.mapping;  // elsewhere pools are copies
   outline_.root = scene.root;
   outline_.bounds_min_world = scene.bounds_min_world;
   outline_.bounds_max_world = scene.bounds_max_world;
   object_count_ = scene.materials.size();
+  bindings_ = queue_.make_bindings(plan_.paging);
 }
 
 void DeviceScene::show(const Look& look) {
@@ -91,7 +101,7 @@ void DeviceScene::show_materials(const std::vector<Material>& materials) {
   if (materials.size() != object_count_)
     throw Error(ExitCode::failed, "found a look of " + std::to_string(materials.size()) +
                                       " objects, expected the scene's " + std::to_string(object_count_));
-  material_content_ = material_content(materials, pools_.texture_features);
+  material_content_ = material_content(materials, plan_.texture_features);
   queue_.reserve(material_buffer_, std::span(materials).size_bytes());
   queue_.upload(*material_buffer_, std::as_bytes(std::span(materials)));
 }
@@ -155,8 +165,7 @@ void DeviceScene::upload_tables(const SkyTable& sky) {
 }
 
 void DeviceScene::bind() {
-  for (std::uint32_t i = 0; i < pools_.buffers.size(); ++i)
-    bindings_->bind(BIND_POOLS + i, pools_.buffers[i]);
+  for (std::uint32_t i = 0; i < pools_.size(); ++i) bindings_->bind(BIND_POOLS + i, pools_[i]);
   bindings_->bind(BIND_MATERIALS, *material_buffer_);
   bindings_->bind(BIND_LIGHTS, *light_buffer_);
   bindings_->bind(BIND_LIGHT_TABLES, *table_buffer_);
@@ -169,7 +178,7 @@ void DeviceScene::require_whole() const {
 }
 
 PoolBytes DeviceScene::bytes() const {
-  PoolBytes bytes = pools_.bytes;
+  PoolBytes bytes = plan_.bytes;
   bytes.environment = environment_->size();
   if (wide_nodes_) bytes.at(BIND_DATA_POOL) += wide_nodes_->size();
   return bytes;
@@ -177,14 +186,14 @@ PoolBytes DeviceScene::bytes() const {
 
 SceneContent DeviceScene::content() const {
   return {.materials = material_content_,
-          .pools = pools_.features & (clip_content_.lines ? ~0U : ~FEATURE_CLIPS),
+          .pools = plan_.features & (clip_content_.lines ? ~0U : ~FEATURE_CLIPS),
           .ellipses = clip_content_.ellipses,
           .leans = leans_,
-          .references = pools_.references,
-          .top_levels = pools_.top_levels,
-          .pages = pools_.paging.pages,
-          .page_shift = pools_.paging.page_shift,
-          .textures = pools_.texture_features,
+          .references = plan_.references,
+          .top_levels = plan_.top_levels,
+          .pages = plan_.paging.pages,
+          .page_shift = plan_.paging.page_shift,
+          .textures = plan_.texture_features,
           .lights = lights_ > 0,
           .sized_lights = lights_sized_ > 0,
           .environment_texture = environment_texture_,

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,19 +19,22 @@
 
 namespace splatray {
 
+/// Called once all is known of a scene that programs depend on, before its pools are uploaded.
+using Planned = std::function<void()>;
+
 class DeviceScene {
  public:
   /// Nothing yet, black all around. The device and the queue must outlive it.
   DeviceScene(const Device& device, Queue& queue, const PoolRequest& request);
 
   /// As the tracer's functions of these names.
-  void upload(const Scene& scene) { upload(scene, nullptr); }
-  void upload_and_free(Scene& scene) { upload(scene, &scene); }
+  void upload(const Scene& scene, const Planned& planned = {}) { upload(scene, nullptr, planned); }
+  void upload_and_free(Scene& scene, const Planned& planned = {}) { upload(scene, &scene, planned); }
   /// Uploads the parts of the look that changed; the scene's pools are there. Throws Error (failed) for a look of other objects, or
   /// with too many lights.
   void show(const Look& look);
 
-  /// Whether there is a scene.
+  /// Whether there is a scene, or one is being uploaded.
   [[nodiscard]] bool uploaded() const { return bindings_ != nullptr; }
   /// Throws Error (input_unreadable) where the scene lies in a file that has changed since: what was traced is worth nothing.
   void require_whole() const;
@@ -46,8 +50,9 @@ class DeviceScene {
   [[nodiscard]] FrameParams query_params(const Settings& settings) const;
 
  private:
-  /// `spent`: as Pools has it.
-  void upload(const Scene& scene, Scene* spent);
+  /// `spent`: as upload_pools has it.
+  void upload(const Scene& scene, Scene* spent, const Planned& planned);
+  void plan(const Scene& scene, const PoolRequest& request);
   void upload_tables(const SkyTable& sky);
   void show_materials(const std::vector<Material>& materials);
   void show_lights(const Look& look);
@@ -62,7 +67,8 @@ class DeviceScene {
 
   Scene outline_;  ///< the scene without its arrays: transform, bounds, up, mapping
   std::size_t object_count_ = 0;
-  Pools pools_;
+  PoolPlan plan_;
+  PoolBuffers pools_;
   std::unique_ptr<Buffer> wide_nodes_;  ///< null where programs walk the octree
   ClipContent clip_content_;
   bool leans_ = false;       ///< any_leans

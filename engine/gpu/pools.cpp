@@ -138,55 +138,59 @@ Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits) {
   return std::get<Paging>(paging);
 }
 
-Pools::Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
-             Scene* spent) {
-  assert(spent == nullptr || spent == &scene);
+PoolPlan::PoolPlan(const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request) {
   top_levels = splatray::top_levels(scene.data_pool.size(), scene.slab_pool.size());
-  std::vector<std::uint32_t> top = top_table(scene, top_levels);
   DeviceLimits limits = device_limits;
   limits.storage_bytes =
       std::min(limits.storage_bytes / sizeof(uvec4), request.page_elements) * sizeof(uvec4);
   references = choose_references(pool_counts(scene), limits, request.data);
-  const auto list =
-      references ? std::span<const std::uint32_t>() : std::span<const std::uint32_t>(scene.reference_pool);
-  const bool lists = !list.empty();
+  const std::size_t listed = references ? 0 : scene.reference_pool.size();
   std::uint32_t binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
     const auto& pool = scene.*row.pool;
     const bool absent = pool.empty() || (binding == BIND_REFERENCE_POOL && !references);
-    const std::size_t elements = absent ? 0 : lists && row.listed() ? list.size() : pool.size();
+    const std::size_t elements = absent ? 0 : listed > 0 && row.listed() ? listed : pool.size();
     bytes.at(binding++) = elements * element_bytes(row);
     if (elements > 0) features |= row.feature;
   });
   texture_features = splatray::texture_features(scene.columns);
-  bytes.at(BIND_TEXTURE_POOL) = (lists ? list.size() : scene.data_pool.size()) *
+  bytes.at(BIND_TEXTURE_POOL) = (listed > 0 ? listed : scene.data_pool.size()) *
                                 texture_word_count(texture_features) * sizeof(std::uint32_t);
-  bytes.at(BIND_TOP_TABLE) = std::span(top).size_bytes();
+  bytes.at(BIND_TOP_TABLE) = (std::uint64_t{1} << 3 * top_levels) * sizeof(std::uint32_t);
   paging = choose_paging(bytes, limits);
   bytes.pages = *std::max_element(paging.pages.begin(), paging.pages.end());
-  const auto page_bytes = [&](std::uint32_t of_binding) {
-    const std::size_t i = of_binding - BIND_POOLS;
-    return paging.pages[i] > 1 ? pool_kinds()[i].element_bytes << paging.page_shift : UINT64_MAX;
+}
+
+PoolBuffers upload_pools(Queue& queue, const PoolPlan& plan, const Scene& scene, Scene* spent) {
+  assert(spent == nullptr || spent == &scene);
+  const auto list = plan.references ? std::span<const std::uint32_t>()
+                                    : std::span<const std::uint32_t>(scene.reference_pool);
+  const bool lists = !list.empty();
+  const auto page_bytes = [&](std::uint32_t binding) {
+    const std::size_t i = binding - BIND_POOLS;
+    return plan.paging.pages[i] > 1 ? pool_kinds()[i].element_bytes << plan.paging.page_shift : UINT64_MAX;
   };
-  const auto make = [&](std::uint32_t of_binding) {
-    return PagedBuffer(queue, bytes.at(of_binding), page_bytes(of_binding));
+  const auto make = [&](std::uint32_t binding) {
+    return PagedBuffer(queue, plan.bytes.at(binding), page_bytes(binding));
   };
+  PoolBuffers buffers;
   buffers.back() = make(BIND_TOP_TABLE);
-  buffers.back().upload(queue, std::as_bytes(std::span(top)));
-  std::exchange(top, {});
+  buffers.back().upload(queue,
+                        std::as_bytes(std::span<const std::uint32_t>(top_table(scene, plan.top_levels))));
   PagedBuffer& textures = buffers[BIND_TEXTURE_POOL - BIND_POOLS];
   textures = make(BIND_TEXTURE_POOL);
-  if (texture_features != 0) upload_textures(queue, textures, scene, list);
-  binding = BIND_POOLS;
+  if (plan.texture_features != 0) upload_textures(queue, textures, scene, list);
+  std::uint32_t binding = BIND_POOLS;
   for_each_pool([&](const auto& row) {
     PagedBuffer& buffer = buffers[binding - BIND_POOLS];
-    const bool whole = bytes.at(binding) > 0 && !(lists && row.listed());
+    const bool any = plan.bytes.at(binding) > 0, whole = any && !(lists && row.listed());
     buffer = whole ? upload_whole(queue, scene.*row.pool, page_bytes(binding)) : make(binding);
-    if (bytes.at(binding) > 0 && !whole) upload_listed(queue, buffer, scene.*row.pool, list);
+    if (any && !whole) upload_listed(queue, buffer, scene.*row.pool, list);
     if (spent != nullptr && binding != BIND_REFERENCE_POOL) std::exchange(spent->*row.pool, {});
     ++binding;
   });
   if (spent != nullptr) std::exchange(spent->reference_pool, {});  // lists were made from it
+  return buffers;
 }
 
 }  // namespace splatray

@@ -55,21 +55,25 @@ struct PoolKind {
 /// do not fit.
 [[nodiscard]] Paging choose_paging(const PoolBytes& bytes, const DeviceLimits& limits);
 
-/// The uploaded pools; move-only.
-struct Pools {
-  Pools() = default;
-  /// Uploads and waits; throws as choose_paging does. What the queue takes where it lies is not copied. `spent` is null or the scene
-  /// itself, whose pools are then freed, each as soon as it is on the device; after an Error some of them may be gone.
-  Pools(Queue& queue, const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request,
-        Scene* spent = nullptr);
+/// What a scene's pools are on a device, known before they are there.
+struct PoolPlan {
+  PoolPlan() = default;
+  /// Throws as choose_paging does.
+  PoolPlan(const DeviceLimits& device_limits, const Scene& scene, const PoolRequest& request);
 
   Paging paging;
-  PoolBytes bytes;                         ///< without environment and frame
-  bool references = false;                 ///< the data pool is read through the reference pool
-  std::uint32_t features = 0;              ///< FEATURE_* of the optional pools that the scene has
-  std::uint32_t top_levels = 0;            ///< of the top table
-  std::uint32_t texture_features = 0;      ///< texture_features() of the scene
-  std::array<PagedBuffer, POOLS> buffers;  ///< in the order of their bindings, from BIND_POOLS on
+  PoolBytes bytes;                     ///< without environment and frame
+  bool references = false;             ///< the data pool is read through the reference pool
+  std::uint32_t features = 0;          ///< FEATURE_* of the optional pools that the scene has
+  std::uint32_t top_levels = 0;        ///< of the top table
+  std::uint32_t texture_features = 0;  ///< texture_features() of the scene
 };
+
+/// The uploaded pools, in the order of their bindings, from BIND_POOLS on.
+using PoolBuffers = std::array<PagedBuffer, POOLS>;
+/// Uploads a scene's pools as planned, and waits. What the queue takes where it lies is not copied. `spent` is null or the scene itself,
+/// whose pools are then freed, each as soon as it is on the device; after an Error some of them may be gone.
+[[nodiscard]] PoolBuffers upload_pools(Queue& queue, const PoolPlan& plan, const Scene& scene,
+                                       Scene* spent = nullptr);
 
 }  // namespace splatray

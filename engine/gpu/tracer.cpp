@@ -49,15 +49,15 @@ Tracer::Tracer(const Device& device, const TracerOptions& options)
 
 Tracer::~Tracer() = default;
 
-void Tracer::upload(const Scene& scene) {
+void Tracer::upload(const Scene& scene, const Planned& planned) {
   impl_->finish_begun();
-  impl_->runner.scene.upload(scene);
+  impl_->runner.scene.upload(scene, planned);
   ++impl_->uploads;
 }
 
-void Tracer::upload_and_free(Scene& scene) {
+void Tracer::upload_and_free(Scene& scene, const Planned& planned) {
   impl_->finish_begun();
-  impl_->runner.scene.upload_and_free(scene);
+  impl_->runner.scene.upload_and_free(scene, planned);
   ++impl_->uploads;
 }
 
@@ -100,6 +100,13 @@ void place_tiles(std::span<const Tile> tiles, const std::vector<vec4>& means, st
   }
 }
 
+/// That of render(), with the base colours where they are wanted.
+Dispatch samples_dispatch(const Runner& runner, const View& view, const Settings& settings) {
+  Dispatch dispatch = runner.picture_dispatch(view, settings);
+  if (settings.albedo) dispatch.constants[SPEC_OUTPUT] = OUTPUT_BASE;
+  return dispatch;
+}
+
 /// Adds samples until there are `end` in each pixel, or fewer that are kept where `progress` says stop.
 void add_samples(Passes& passes, std::uint32_t end, Stopped stopped, const Passes::Advance& advance) {
   try {
@@ -126,10 +133,8 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
   Picture picture = impl.start_picture(look, view, settings, values, tile_pixels,
                                        keeps ? values * range_bytes(settings.samples) : 0);
   Image& image = picture.image;
-  if (settings.albedo) {
-    picture.dispatch.constants[SPEC_OUTPUT] = OUTPUT_BASE;
-    image.albedo.resize(image.rgba.size());
-  }
+  picture.dispatch = samples_dispatch(runner, view, settings);
+  if (settings.albedo) image.albedo.resize(image.rgba.size());
   std::vector<vec4> first_half(settings.estimate_error ? image.rgba.size() : 0);
   const std::uint32_t half = settings.estimate_error ? settings.samples / 2 : 0;
   // Made to its end, as without it nothing could be kept.
@@ -167,9 +172,8 @@ Image Tracer::render(const Look& look, const View& view, const Settings& setting
 void Tracer::prepare(const Look& look, const View& view, const Settings& settings) {
   Runner& runner = impl_->runner;
   runner.require_scene("prepare()");
-  if (runner.profile.slow) return;
   runner.scene.show(look);
-  runner.queue->prepare(runner.picture_dispatch(view, settings), runner.scene.bindings());
+  runner.queue->prepare(samples_dispatch(runner, view, settings), runner.scene.bindings());
   if (settings.aov) runner.queue->prepare(runner.aov_dispatch(view, settings), runner.scene.bindings());
 }
 

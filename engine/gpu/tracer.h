@@ -70,11 +70,13 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
+  /// Called before the pools of a scene are uploaded: prepare() may be, so that programs are built meanwhile.
+  using Planned = std::function<void()>;
   /// Uploads the pools. Throws Error (out_of_memory) with the sizes when a pool does not fit the device.
-  void upload(const Scene& scene);
+  void upload(const Scene& scene, const Planned& planned = {});
   /// As upload, but frees the scene's pools, each as soon as it is on the device, also where that then throws: a host needs
   /// the memory of a large scene once, not twice. All else of the scene stays.
-  void upload_and_free(Scene& scene);
+  void upload_and_free(Scene& scene, const Planned& planned = {});
 
   /// Called between dispatches with the share done, 0..1; returns false to stop: Error (interrupted), but for images that are
   /// kept.
@@ -89,8 +91,8 @@ class Tracer {
   /// their difference.
   [[nodiscard]] Image render_until(const Look& look, const View& view, const Settings& settings,
                                    const Goal& goal, const Progress& progress = {});
-  /// Begins to build the programs of a picture on other threads, of its AOVs too where Settings::aov is set, but where such threads are
-  /// what traces; render(), begin() and trace_aov() of it then wait for less.
+  /// Begins to build the programs of a picture on other threads, of its AOVs too where Settings::aov is set; render(), begin() and
+  /// trace_aov() of it then wait for less.
   void prepare(const Look& look, const View& view, const Settings& settings);
   /// Starts a picture that grows by advance(), and drops the one before. Once all samples are in, it is bit for bit what render()
   /// gives, whatever other calls than upload() happened between. Settings::aov and View::window are not looked at.

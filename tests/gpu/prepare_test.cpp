@@ -1,4 +1,5 @@
 // Programs that are built on threads of their own.
+#include "engine/base/error.h"
 #include "engine/gpu/runner.h"
 #include "tests/gpu/shown_tracer.h"
 #include "tests/gpu/small_scene.h"
@@ -54,6 +55,48 @@ TEST_F(PrepareTest, WhatIsNeverRunIsWaitedForAtTheEnd) {
   prepare(dispatch());
   prepare(runner.aov_dispatch(disc_view(8, 8), plain_settings()));
   EXPECT_EQ(runner.queue->programs_built(), 2U);
+}
+
+/// Scenes that programs differ for, each with its own.
+TEST_F(PrepareTest, AProgramIsKnownBeforeThePoolsAreThere) {
+  Settings settings = plain_settings();
+  settings.aov = true;
+  Scene coloured = disc_scene();
+  coloured.color_pool = std::vector<std::uint32_t>(coloured.data_pool.size(), 0xFF2040FFU);
+  Scene open = disc_scene(2);
+  open.materials[1].flags = MATERIAL_TWO_SIDED;
+  for (const Scene& scene : {disc_scene(), coloured, open}) {
+    ShownTracer alone(device);
+    alone.upload(scene);
+    const Image expected = alone.render(disc_view(8, 8), settings);
+    Tracer tracer(device);
+    std::uint32_t built = 0;
+    tracer.upload(scene, [&] {
+      tracer.prepare(look_of(scene), disc_view(8, 8), settings);
+      built = tracer.pipelines_built();
+    });
+    EXPECT_EQ(built, 2U);
+    EXPECT_TRUE(tracer.render(look_of(scene), disc_view(8, 8), settings).rgba == expected.rgba);
+    EXPECT_EQ(tracer.pipelines_built(), 2U) << "none but those that were prepared";
+  }
+}
+
+TEST_F(PrepareTest, BaseColoursAreOfTheProgramThatIsPrepared) {
+  Settings settings = plain_settings();
+  settings.look = LOOK_LIT;
+  settings.albedo = true;
+  const Scene scene = disc_scene();
+  Tracer tracer(device);
+  tracer.upload(scene, [&] { tracer.prepare(look_of(scene), disc_view(8, 8), settings); });
+  EXPECT_FALSE(tracer.render(look_of(scene), disc_view(8, 8), settings).albedo.empty());
+  EXPECT_EQ(tracer.pipelines_built(), 1U);
+}
+
+TEST_F(PrepareTest, ASceneThatIsNotUploadedIsNotThere) {
+  const Scene scene = disc_scene();
+  Tracer tracer(device);
+  EXPECT_THROW(tracer.upload(scene, [] { throw Error(ExitCode::failed, "no"); }), Error);
+  EXPECT_THROW((void)tracer.render(look_of(scene), disc_view(8, 8), plain_settings()), Error);
 }
 
 /// Beside the picture's own, where they are asked for.

@@ -46,7 +46,8 @@ double look_exposure_ev(const Shot& shot, SceneOnDevice& shown, const Camera& ca
   settings.samples = SAMPLES;
   settings.sample_offset = 0;
   settings.aov = settings.estimate_error = settings.counters = false;
-  settings.albedo = shot.traced_settings().albedo;  // by the picture's own program: another takes as long to build
+  settings.albedo =
+      shot.traced_settings().albedo;  // by the picture's own program: another takes as long to build
   return automatic_exposure_ev(shown.tracer().render(look, view, settings));
 }
 
@@ -102,6 +103,13 @@ Look plain_look(const Shot& shot, const SceneOnDevice& shown, const Camera& came
 
 std::optional<SceneLight> light_at_camera(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {
   return headlight(shot, shown, camera, plain_look(shot, shown, camera));
+}
+
+void prepare_programs(const Shot& shot, SceneOnDevice& shown) {
+  if (shot.request.view.xray || shown.device().profile().slow) return;
+  View view = shot.view;
+  view.camera = first_camera(shot, shown.scene());
+  shown.tracer().prepare(plain_look(shot, shown, view.camera), view, shot.traced_settings());
 }
 
 LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera) {

@@ -24,6 +24,10 @@ struct LitLook {
 /// In the lights that the request asks for, else the default ones, or that of light_at_camera.
 [[nodiscard]] LitLook lit_look(const Shot& shot, SceneOnDevice& shown, const Camera& camera);
 
+/// Begins to build the programs of the shot's first picture, in the light that is known before any is traced: for Tracer::Planned. But where the
+/// threads that build them are what uploads, too.
+void prepare_programs(const Shot& shot, SceneOnDevice& shown);
+
 /// The exposure, stops in hundredths, that automatic_exposure_ev gives a small picture of the whole view, at most 160 pixels wide
 /// and high; in daylight and in a scene's own lights up to 1.5 stops more: that by which white sends out 1 in the open. Parts of a
 /// picture, and all pictures of a run, have one exposure by it.

@@ -4,16 +4,23 @@
 
 namespace splatray {
 
-void SceneOnDevice::open(const Scene& scene, Scene* copy) {
-  scene_ = nullptr;
-  copy != nullptr ? tracer_.upload_and_free(*copy) : tracer_.upload(scene);
-  take_look(scene);
+void SceneOnDevice::open(const Scene& scene, Scene* copy, const Tracer::Planned& planned) {
+  upload(scene,
+         [&] { copy != nullptr ? tracer_.upload_and_free(*copy, planned) : tracer_.upload(scene, planned); });
 }
 
-void SceneOnDevice::open_and_free(Scene& scene) {
-  scene_ = nullptr;
+void SceneOnDevice::open_and_free(Scene& scene, const Tracer::Planned& planned) {
+  upload(scene, [&] { tracer_.upload_and_free(scene, planned); });
+}
+
+void SceneOnDevice::upload(const Scene& scene, const std::function<void()>& pools) {
   take_look(scene);
-  tracer_.upload_and_free(scene);
+  try {
+    pools();
+  } catch (...) {
+    scene_ = nullptr;
+    throw;
+  }
 }
 
 void SceneOnDevice::replace_pools(Scene& copy) { tracer_.upload_and_free(copy); }

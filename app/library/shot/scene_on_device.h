@@ -15,10 +15,10 @@ class SceneOnDevice {
       : device_(device), tracer_(device, options) {}
 
   /// Uploads a scene, which must outlive its stay here, and shows it in its own look; instead of its pools those of a copy with
-  /// other colours and radii, if there is one, and frees them. Throws Error.
-  void open(const Scene& scene, Scene* copy = nullptr);
+  /// other colours and radii, if there is one, and frees them. `planned`: as Tracer::upload has it; the scene is open then. Throws Error.
+  void open(const Scene& scene, Scene* copy = nullptr, const Tracer::Planned& planned = {});
   /// As open, but frees the scene's pools, each as soon as it is on the device; all else of the scene stays.
-  void open_and_free(Scene& scene);
+  void open_and_free(Scene& scene, const Tracer::Planned& planned = {});
   /// Uploads other pools of the scene opened, and frees them: those of a copy, as in open.
   void replace_pools(Scene& copy);
   [[nodiscard]] bool is_open() const { return scene_ != nullptr; }
@@ -41,6 +41,7 @@ class SceneOnDevice {
 
  private:
   void take_look(const Scene& scene);
+  void upload(const Scene& scene, const std::function<void()>& pools);
 
   const Device& device_;
   Tracer tracer_;

@@ -38,6 +38,12 @@ std::uint32_t tone_number(Tone tone) {
   return tone == Tone::agx ? DISPLAY_TONE_AGX : DISPLAY_TONE_TABLE;
 }
 
+/// Only what shows a picture has a tone curve.
+std::pair<std::uint32_t, std::uint32_t> program_key(std::uint32_t step, std::uint32_t tone) {
+  const bool tones = step == DISPLAY_PLAIN || step == DISPLAY_SEEN;
+  return {step, tones ? tone : DISPLAY_TONE_TABLE};
+}
+
 /// What follows the display's own table in the curves.
 std::vector<std::uint32_t> fixed_curves() {
   std::vector<std::uint32_t> fixed(DISPLAY_CURVE_WORDS - DISPLAY_AS_IT_IS);
@@ -171,19 +177,30 @@ void Screen::record(const DisplayParams& params, const ShownAs& how) {
   check(vkEndCommandBuffer(commands_), "recording commands");
 }
 
-VkPipeline Screen::program(std::uint32_t step, std::uint32_t tone) {
-  const bool tones = step == DISPLAY_PLAIN || step == DISPLAY_SEEN;
-  const std::pair key(step, tones ? tone : DISPLAY_TONE_TABLE);
+Screen::Program Screen::build(const ProgramKey& key) const {
+  PipelineKey constants;
+  constants.constants[DISPLAY_SPEC_STEP] = key.first;
+  constants.constants[DISPLAY_SPEC_TONE] = key.second;
+  return make_pipeline(vulkan_, constants, DISPLAY, set_.layout()->get(), VK_NULL_HANDLE);
+}
+
+void Screen::prepare(Tone tone) {
+  if (begun_.valid() || !programs_.empty()) return;
+  begun_ = std::async(std::launch::async, [this, number = tone_number(tone)] {
+    std::map<ProgramKey, Program> built;
+    for (const std::uint32_t step :
+         {DISPLAY_SEEN, DISPLAY_PLAIN, DISPLAY_MEASURE_REST, DISPLAY_MEASURE_SEEN, DISPLAY_MATCH}) {
+      const ProgramKey key = program_key(step, number);
+      built.emplace(key, build(key));
+    }
+    return built;
+  });
+}
+
+VkPipeline Screen::program(const ProgramKey& key) {
+  if (begun_.valid()) programs_ = begun_.get();
   auto found = programs_.find(key);
-  if (found == programs_.end()) {
-    PipelineKey constants;
-    constants.constants[DISPLAY_SPEC_STEP] = key.first;
-    constants.constants[DISPLAY_SPEC_TONE] = key.second;
-    found =
-        programs_
-            .emplace(key, make_pipeline(vulkan_, constants, DISPLAY, set_.layout()->get(), VK_NULL_HANDLE))
-            .first;
-  }
+  if (found == programs_.end()) found = programs_.emplace(key, build(key)).first;
   return found->second.get();
 }
 
@@ -194,7 +211,7 @@ void Screen::record_step(std::uint32_t step, std::uint32_t pixels, const Display
   dispatch.set_groups(step == DISPLAY_MATCH ? 1 : groups(threads, GROUP_SIZE));
   record_barrier(commands_);
   vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE,
-                    program(step, tone_number(table.display().tone)));
+                    program(program_key(step, tone_number(table.display().tone))));
   vkCmdDispatch(commands_, dispatch.groups_x, dispatch.groups_y, 1);
   record_barrier(commands_);
 }

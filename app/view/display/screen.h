@@ -1,5 +1,6 @@
 /// Makes of a picture on a Vulkan device what a screen takes, without bringing it to the host.
 #pragma once
+#include <future>
 #include <map>
 #include <optional>
 #include <span>
@@ -35,6 +36,8 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
+  /// Begins to build the programs of a tone curve on another thread: show() then waits for less.
+  void prepare(Tone tone);
   /// A picture that the device grew: within 1 of 255 of what DisplayTable and MovingPicture make of it. The device may still be at
   /// it when it is handed out. Throws Error as check() does.
   [[nodiscard]] SharedPicture show(const GrownPicture& grown, const ShownAs& how);
@@ -48,10 +51,15 @@ class Screen {
   void forget();
 
  private:
+  /// A step, DISPLAY_PLAIN and its like, and a tone curve, DISPLAY_TONE_*.
+  using ProgramKey = std::pair<std::uint32_t, std::uint32_t>;
+  using Program = Handle<VkPipeline, vkDestroyPipeline>;
+
   VkResult wait_for_last() const;
   void take_curve(const DisplayTable& table);
-  /// The program of a step, DISPLAY_PLAIN and its like, and of a tone curve, DISPLAY_TONE_*; built when it is the first such.
-  [[nodiscard]] VkPipeline program(std::uint32_t step, std::uint32_t tone);
+  [[nodiscard]] Program build(const ProgramKey& key) const;
+  /// Built when it is the first such.
+  [[nodiscard]] VkPipeline program(const ProgramKey& key);
   void record_step(std::uint32_t step, std::uint32_t pixels, const DisplayTable& table);
   void record(const DisplayParams& params, const ShownAs& how);
   void submit();
@@ -59,7 +67,8 @@ class Screen {
   const VulkanDevice& vulkan_;
   CommandQueue transfers_;
   DescriptorSet set_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Handle<VkPipeline, vkDestroyPipeline>> programs_;
+  std::map<ProgramKey, Program> programs_;
+  std::future<std::map<ProgramKey, Program>> begun_;  ///< on another thread
   Handle<VkCommandPool, vkDestroyCommandPool> pool_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VulkanBuffer params_, curves_, state_, means_;  ///< means_: of an image of the host

@@ -17,22 +17,30 @@ std::vector<Material> two_sided(std::vector<Material> materials) {
 
 }  // namespace
 
-void LiveScene::open(SharedScene scene, const AttributeOptions& attributes) {
-  scene_.reset();
+void LiveScene::open(SharedScene scene, const AttributeOptions& attributes, const Tracer::Planned& planned) {
   attributes_ = {};
   up_ = scene->up;
   legend_ = {};
-  if (attributes == AttributeOptions{}) {
-    shown_.open(*scene);
-  } else {
-    Scene copy = shown_with(*scene, attributes);
-    shown_.open(*scene, &copy);
-  }
   scene_ = std::move(scene);
+  try {
+    if (attributes == AttributeOptions{}) {
+      shown_.open(*scene_, nullptr, planned);
+    } else {
+      Scene copy = shown_with(*scene_, attributes);
+      shown_.open(*scene_, &copy, planned);
+    }
+  } catch (...) {
+    scene_.reset();
+    throw;
+  }
 }
 
 void LiveScene::match(const Document& document, ViewMode mode) {
   match_attributes(document.request.look.attributes, up_of(document));
+  match_look(document, mode);
+}
+
+void LiveScene::match_look(const Document& document, ViewMode mode) {
   shown_.show_materials(mode == ViewMode::facing ? two_sided(document.materials) : document.materials);
   shown_.show_lights(
       lights_of_look(look_of(document), resolve_lights(*scene_, document.request, document.camera)));

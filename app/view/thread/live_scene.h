@@ -17,12 +17,15 @@ class LiveScene {
  public:
   explicit LiveScene(const Device& device) : shown_(device, {.pipeline_folder = user_cache_folder()}) {}
 
-  /// Uploads another scene, with the colours and hidden points asked for. Throws Error.
-  void open(SharedScene scene, const AttributeOptions& attributes = {});
+  /// Uploads another scene, with the colours and hidden points asked for; `planned`: as Tracer::upload has it, the scene is open then.
+  /// Throws Error.
+  void open(SharedScene scene, const AttributeOptions& attributes = {}, const Tracer::Planned& planned = {});
   /// Makes materials, lights, environment and up direction the document's, which is of the scene opened. Hidden objects
   /// stay hidden in `mode` facing, all others are two-sided there. Throws Error (input_unreadable) for an environment
   /// that cannot be read, once: the one before stays.
   void match(const Document& document, ViewMode mode);
+  /// The same but for colours and hidden points, which are the document's: they may yet be uploaded.
+  void match_look(const Document& document, ViewMode mode);
 
   /// As picture_lights.h has it for the document's picture of `size_px` pixels, though the document has lights; matches the document.
   [[nodiscard]] std::optional<SceneLight> light_at_camera(const Document& document, glm::uvec2 size_px);

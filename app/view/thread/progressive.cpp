@@ -43,6 +43,26 @@ void Progressive::show(const Document& document, glm::uvec2 window_px) {
   if (!same) restart();
 }
 
+void Progressive::prepare(const Document& document, glm::uvec2 window_px) {
+  show(document, window_px);
+  if (document_.mode != ViewMode::shaded || window_px_.x == 0 || window_px_.y == 0) return;
+  live_.match_look(document_, document_.mode);
+  const View view{document_.camera, window_px_.x, window_px_.y};
+  live_.tracer().prepare(live_.look(), view, coarse_settings());
+  prepare_fine(view);
+  if (shared_ == nullptr) return;
+  if (!screen_) screen_.emplace(*shared_);
+  screen_->prepare(display_of(document_).tone);
+}
+
+/// Begins to build the programs of what follows a coarse picture, but where the threads that build them are what traces.
+void Progressive::prepare_fine(const View& view) {
+  if (live_.shown().device().profile().slow) return;
+  Settings fine = settings();
+  fine.aov = denoises();
+  live_.tracer().prepare(live_.look(), view, fine);
+}
+
 void Progressive::restart() { stage_ = Stage::coarse; }
 
 void Progressive::restart_with_scene() {
@@ -84,18 +104,11 @@ SharedFrame Progressive::trace_coarse() {
   const double scale = resolution_.scale(window_px_, MOVING_MS, SLOWEST_MS);
   Frame frame = new_frame(scaled_size(window_px_, scale), scale);
   frame.moving = true;
-  Settings coarse = settings();
-  coarse.samples = 1;
-  if (coarse.look != LOOK_PAPER) {  // whose one sample has no noise
-    coarse.look = LOOK_SEEN;
-    coarse.lens_radius_world = 0.0;
-    frame.is_seen = true;
-  }
+  const Settings coarse = coarse_settings();
+  frame.is_seen = coarse.look == LOOK_SEEN;
   const Clock::time_point start = Clock::now();
   if (document_.mode == ViewMode::shaded) {
-    Settings fine = settings();
-    fine.aov = denoises();
-    live_.tracer().prepare(live_.look(), frame.view, fine);  // what follows, while this is built and seen
+    prepare_fine(frame.view);  // while this is built and seen
     begin(frame.view, coarse);
     while (!live_.tracer().advance(std::numeric_limits<double>::infinity())) {
     }
@@ -224,6 +237,16 @@ Settings Progressive::settings() const {
   settings.aov = false;
   settings.counters = document_.mode == ViewMode::tests || document_.mode == ViewMode::steps;
   return settings;
+}
+
+/// Those of a coarse picture.
+Settings Progressive::coarse_settings() const {
+  Settings coarse = settings();
+  coarse.samples = 1;
+  if (coarse.look == LOOK_PAPER) return coarse;  // whose one sample has no noise
+  coarse.look = LOOK_SEEN;
+  coarse.lens_radius_world = 0.0;
+  return coarse;
 }
 
 Frame Progressive::new_frame(glm::uvec2 size_px, double scale) const {

@@ -32,6 +32,8 @@ class Progressive {
   /// Shows this from now on, in a window of `window_px` pixels. A document equal to the last changes nothing; another starts
   /// the picture anew, with a coarse one until nothing has changed for a while. Only another exposure recolours it.
   void show(const Document& document, glm::uvec2 window_px);
+  /// Begins to build the programs of a document's picture, of the live scene that is being uploaded.
+  void prepare(const Document& document, glm::uvec2 window_px);
   /// Traces anew what is shown: the live scene was used for something else.
   void restart();
   /// The same where the live scene is another.
@@ -47,6 +49,7 @@ class Progressive {
   /// `guided`: all samples are in, what guides the filter is traced; `filtered`: a thread of its own filters.
   enum class Stage { coarse, settling, fine, guided, filtered, finished };
 
+  void prepare_fine(const View& view);
   [[nodiscard]] SharedFrame trace_coarse();
   [[nodiscard]] SharedFrame trace_fine(const std::function<bool()>& stop);
   [[nodiscard]] SharedFrame trace_samples();
@@ -55,6 +58,7 @@ class Progressive {
   [[nodiscard]] SharedFrame filtered();
   void trace_aovs(Frame& frame, const Settings& settings, const std::function<bool()>& stop);
   [[nodiscard]] Settings settings() const;
+  [[nodiscard]] Settings coarse_settings() const;
   [[nodiscard]] Frame new_frame(glm::uvec2 size_px, double scale) const;
   void begin(const View& view, const Settings& settings);
   void take_grown(Frame& frame);

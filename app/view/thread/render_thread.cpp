@@ -131,8 +131,12 @@ void RenderThread::open_now(const Pending& pending) {
     show_points(true, pending.window_px);
   }
   points_.reset();
-  live_.open(pending.scene,
-             pending.document ? pending.document->request.look.attributes : AttributeOptions{});
+  const auto prepare = [&] {
+    if (!pending.document) return;
+    attempt_to("showing the scene", [&] { progressive_.prepare(*pending.document, pending.window_px); });
+  };
+  live_.open(pending.scene, pending.document ? pending.document->request.look.attributes : AttributeOptions{},
+             prepare);
 }
 
 /// Draws the points where they, or how they are seen, are new.
