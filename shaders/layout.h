@@ -236,7 +236,7 @@ struct FrameParams {
   float kappa;          ///< window depth in units of the first splat's radius
   float delta;          ///< SIDE_DELTA: least distance between a secondary ray's origin and a hit, root units
   vec3 environment;     ///< radiance factor of the texture, or the constant radiance
-  uint tile_first;      ///< where the accumulation holds this dispatch's first pixel
+  uint tile_first;      ///< where accumulation and AOVs hold this dispatch's first pixel
   vec3 environment_up;  ///< unit vector the environment's +y (its pole) points to
   uint light_begin;     ///< from 1 on `environment` and `irradiance` are zero: another dispatch added them
   vec3 environment_right;  ///< unit vector the environment's +x points to; its +z is cross(right, up)

@@ -5,6 +5,6 @@
 
 namespace splatray {
 
-extern const std::span<const std::uint32_t> TRACE, LIGHT, RAYS, FUSED, DISPLAY;
+extern const std::span<const std::uint32_t> TRACE, LIGHT, RAYS, FUSED, DISPLAY, DENOISE;
 
 }  // namespace splatray

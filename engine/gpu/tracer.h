@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,12 @@ struct GrownPicture {
   std::uint32_t next_row = 0;        ///< rows above it have one more
 };
 
+/// What a filter is guided by, of each pixel of a picture, where it is: on the device.
+struct DeviceGuide {
+  const Buffer* aov = nullptr;   ///< AovPixel
+  const Buffer* base = nullptr;  ///< vec4: base colours
+};
+
 /// What it shows is given with each call; of a look, what equals that of the call before is not uploaded again. Calls that make
 /// no sense, such as images of no scene or a look of other objects, throw Error (failed) with a sentence that says so.
 class Tracer {
@@ -111,6 +118,10 @@ class Tracer {
   /// answer within some tens of ms.
   [[nodiscard]] std::vector<AovPixel> trace_aov(const Look& look, const View& view, const Settings& settings,
                                                 const Progress& progress = {});
+  /// As trace_aov, and the picture of `base`, settings of few samples, left on the device until the next call of this; white where there
+  /// are none.
+  [[nodiscard]] DeviceGuide trace_guide(const Look& look, const View& view, const Settings& settings,
+                                        const std::optional<Settings>& base, const Progress& progress = {});
   /// Hits of arbitrary rays, one RayHit per query. Root space. Of the look the materials count.
   [[nodiscard]] std::vector<RayHit> intersect(const Look& look, std::span<const RayQuery> rays,
                                               const Settings& settings);

@@ -57,6 +57,7 @@ struct Tracer::Impl {
   void end_block();
   Runner runner;
   GrowingPicture progressive;
+  std::unique_ptr<Buffer> guide_aov, guide_base;  ///< of trace_guide()
   RenderStats stats;
   std::uint32_t uploads = 0;
 };

@@ -22,14 +22,14 @@ void write_aov(uvec2 pixel, uint index) {
 /// Traces a pixel of the tile.
 void trace_pixel(uvec2 in_tile) {
   uvec2 pixel = in_tile + uvec2(frame.tile_x, frame.tile_y);
-  uint index = in_tile.y * frame.tile_width + in_tile.x;
+  uint index = frame.tile_first + in_tile.y * frame.tile_width + in_tile.x;
 #ifndef LIT
   if (OUTPUT == OUTPUT_AOV) {
     write_aov(pixel, index);
   } else
 #endif
   {
-    add_samples(pixel, frame.tile_first + index);
+    add_samples(pixel, index);
   }
 }
 

@@ -35,7 +35,7 @@ NOT_COUNTED = ("tests/fuzz/corpus", "tests/bench/results", "data")
 MOST_ENTRIES = 30
 MOST_LINES = 400
 # What makes the kernels many, as of today: more is a decision, made here.
-MOST_MODULES = 5
+MOST_MODULES = 6
 MOST_FLAGS = 1
 MOST_CONSTANTS = 11
 MOST_FEATURES = 29

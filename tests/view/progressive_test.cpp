@@ -240,12 +240,13 @@ class SharedProgressiveTest : public ProgressiveTest {
  protected:
   void SetUp() override { live.open(scene); }
 
-  std::vector<SharedFrame> show() {
+  std::vector<SharedFrame> show() { return show(on_device); }
+  std::vector<SharedFrame> show(Progressive& shows) {
     std::vector<SharedFrame> frames;
-    on_device.show(document, SIZE);
-    while (const auto when = on_device.next_work()) {
+    shows.show(document, SIZE);
+    while (const auto when = shows.next_work()) {
       std::this_thread::sleep_until(*when);
-      if (SharedFrame frame = on_device.work([] { return false; })) frames.push_back(frame);
+      if (SharedFrame frame = shows.work([] { return false; })) frames.push_back(frame);
     }
     return frames;
   }
@@ -294,6 +295,25 @@ TEST_F(SharedProgressiveTest, EndsWithoutNoiseAndAnExposureOnlyColours) {
   const std::vector<SharedFrame> again = show();
   ASSERT_EQ(again.size(), 1U);
   EXPECT_LE(most_apart(*again.back(), expected), 1);
+}
+
+/// As on a GPU, where no byte of a picture comes to the host.
+TEST_F(SharedProgressiveTest, TheNoiseIsTakenOutWhereThePictureIs) {
+  Progressive there(live, "device", &device, true);
+  document.request.look.style = LOOK_LIT;
+  for (const std::uint32_t samples : {4U, 130U}) {  // more than run on the device in one mean
+    document.request.settings.samples = samples;
+    const std::vector<vec4> expected = headless(true).rgba;
+    for (const double exposure_ev : {0.0, -2.0}) {
+      document.request.look.exposure_ev = exposure_ev;
+      const std::vector<SharedFrame> frames = show(there);
+      EXPECT_TRUE(frames.back()->denoised && frames.back()->image.rgba.empty());
+      EXPECT_LE(most_apart(*frames.back(), expected), 1) << samples;
+      EXPECT_EQ(frames.size() == 1, exposure_ev != 0.0) << "only coloured anew";
+    }
+  }
+  document.camera.eye.x = document.camera.target.x = 0.1;
+  EXPECT_TRUE(show(there).back()->denoised);
 }
 
 TEST_F(SharedProgressiveTest, AnExposureColoursWhatTheDeviceStillHas) {

@@ -99,22 +99,37 @@ class OpenImageDenoise {
 
 }  // namespace
 
-std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view, const Settings& settings,
-                              const Tracer::Progress& progress) {
-  const PixelWindow made = view.made();
-  if (!look_style(settings.look).colors)
-    return std::vector<vec4>(std::size_t{made.width} * made.height, vec4(1.0F));
+std::optional<Settings> base_settings(const Settings& settings) {
+  if (!look_style(settings.look).colors) return {};
   Settings plain = settings;
   plain.look = LOOK_BASE;
   plain.samples = std::min(settings.samples, BASE_SAMPLES);
   plain.sample_offset = 0;  // the same of all ranges of a picture's samples
   plain.aov = plain.estimate_error = plain.counters = false;
-  return tracer.render(look, view, plain, progress).rgba;
+  return plain;
 }
 
-std::string remove_noise(Image& image, std::vector<vec4> base) {
+std::vector<vec4> base_colors(Tracer& tracer, const Look& look, const View& view, const Settings& settings,
+                              const Tracer::Progress& progress) {
+  const PixelWindow made = view.made();
+  if (const std::optional<Settings> plain = base_settings(settings))
+    return tracer.render(look, view, *plain, progress).rgba;
+  return std::vector<vec4>(std::size_t{made.width} * made.height, vec4(1.0F));
+}
+
+namespace {
+
+const std::optional<OpenImageDenoise>& open_image_denoise() {
   static const std::optional<OpenImageDenoise> library = OpenImageDenoise::find();
-  if (library) {
+  return library;
+}
+
+}  // namespace
+
+bool has_own_filter() { return !open_image_denoise(); }
+
+std::string remove_noise(Image& image, std::vector<vec4> base) {
+  if (const auto& library = open_image_denoise()) {
     make_finite(image, base);
     return "Open Image Denoise " + library->run(image, base);
   }

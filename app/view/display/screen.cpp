@@ -67,6 +67,13 @@ DisplayParams params_of(const GrownPicture& grown, const ShownAs& how) {
           .per_world = dome.per_world};
 }
 
+NoisyPicture noisy(const GrownPicture& grown) {
+  const std::uint32_t all = grown.samples_before + grown.samples;
+  return {grown.width, grown.height, static_cast<const VulkanBuffer*>(grown.means),
+          static_cast<const VulkanBuffer*>(grown.before),
+          static_cast<float>(grown.samples) / static_cast<float>(all)};
+}
+
 }  // namespace
 
 Screen::Screen(const VulkanDevice& vulkan)
@@ -100,7 +107,10 @@ VkResult Screen::wait_for_last() const {
   return vkWaitSemaphores(vulkan_.device, &info, UINT64_MAX);
 }
 
-void Screen::wait() const { check(wait_for_last(), "waiting for a picture"); }
+void Screen::wait() {
+  check(wait_for_last(), "waiting for a picture");
+  if (filter_) filter_->wait();
+}
 
 void Screen::forget() {
   wait();
@@ -139,6 +149,18 @@ SharedPicture Screen::show(const GrownPicture& grown, const ShownAs& how) {
   picture->made_at = made_at_;
   return picture;
 }
+
+void Screen::keep(const GrownPicture& part) {
+  if (!filter_) filter_.emplace(vulkan_);
+  filter_->keep(noisy(part));
+}
+
+void Screen::filter(const GrownPicture& grown, float part_share, const DeviceGuide& guide) {
+  const VulkanBuffer& result = filter_->run(noisy(grown), part_share, *guide.base, *guide.aov);
+  filtered_ = {grown.width, grown.height, &result, &result, 0, 1, 0};
+}
+
+SharedPicture Screen::show_filtered(const ShownAs& how) { return show(filtered_, how); }
 
 bool Screen::has_cut_loops() {
   if (!vulkan_.is_cpu()) return false;

@@ -11,6 +11,7 @@
 #include "app/view/display/display_table.h"
 #include "engine/device/vulkan/command_queue.h"
 #include "engine/device/vulkan/descriptor_set.h"
+#include "engine/device/vulkan/device_filter.h"
 #include "engine/image/image.h"
 #include "engine/image/view.h"
 #include "shaders/display/display_layout.h"
@@ -43,10 +44,16 @@ class Screen {
   [[nodiscard]] SharedPicture show(const GrownPicture& grown, const ShownAs& how);
   /// Likewise of one that the host has changed, which is brought to the device.
   [[nodiscard]] SharedPicture show(const Image& image, const ShownAs& how);
+  /// Keeps a picture as Image::part of what is filtered next.
+  void keep(const GrownPicture& part);
+  /// Has the device take the noise out of a picture (device_filter.h); `part_share`: of its samples, that are in what was kept.
+  void filter(const GrownPicture& grown, float part_share, const DeviceGuide& guide);
+  /// As show, what was filtered last.
+  [[nodiscard]] SharedPicture show_filtered(const ShownAs& how);
   /// Whether the picture shown last has pixels whose loops a driver has cut: Tracer::picture() says so.
   [[nodiscard]] bool has_cut_loops();
   /// Waits until the device has read what it was given: before that changes other than by work of its queue.
-  void wait() const;
+  void wait();
   /// Forgets how bright pictures at rest are: another scene is shown.
   void forget();
 
@@ -72,6 +79,8 @@ class Screen {
   Handle<VkCommandPool, vkDestroyCommandPool> pool_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VulkanBuffer params_, curves_, state_, means_;  ///< means_: of an image of the host
+  std::optional<DeviceFilter> filter_;            ///< made when it is first needed
+  GrownPicture filtered_;                         ///< its result
   PictureRing ring_;
   std::shared_ptr<const TimelineSemaphore> made_;
   std::uint64_t made_at_ = 0;     ///< value of made_ when all that was submitted is done

@@ -35,6 +35,13 @@ Display display_of(const Document& document) {
 
 }  // namespace
 
+Progressive::Progressive(LiveScene& live, std::string device, const VulkanDevice* shared,
+                         std::optional<bool> filters_there)
+    : live_(live),
+      device_(std::move(device)),
+      shared_(shared),
+      filters_there_(shared != nullptr && filters_there.value_or(!shared->profile().slow)) {}
+
 void Progressive::show(const Document& document, glm::uvec2 window_px) {
   const bool same = window_px == window_px_ && same_picture(document, document_);
   if (display_of(document) != display_of(document_)) recolour_ = last_ != nullptr;
@@ -128,6 +135,7 @@ SharedFrame Progressive::trace_coarse() {
 /// Begins another picture.
 void Progressive::begin(const View& view, const Settings& settings) {
   if (screen_) screen_->wait();  // which may read the one before
+  shows_filtered_ = false;
   grows_last_ = false;
   live_.tracer().begin(live_.look(), view, settings);
 }
@@ -164,7 +172,7 @@ SharedFrame Progressive::trace_samples() {
   const bool finished = tracer.advance(BAND_MS);
   if (finished) stage_ = denoises() ? Stage::guided : Stage::finished;
   if (tracer.samples() == before) return {};
-  if (tracer.samples() == settings().samples / 2 && denoises()) half_ = tracer.picture().rgba;
+  if (tracer.samples() == settings().samples / 2 && denoises()) keep_half();
   const double ms = milliseconds_since(pass_start_);
   pass_start_ = Clock::now();
   if (!finished && pass_start_ - published_ < BETWEEN_PICTURES) return {};
@@ -177,6 +185,21 @@ SharedFrame Progressive::trace_samples() {
   SharedFrame shown = coloured(std::move(frame));
   pass_start_ = Clock::now();
   return shown;
+}
+
+/// Keeps the picture as it is, which has half of its samples.
+void Progressive::keep_half() {
+  kept_there_ = false;
+  if (filters_there_ && has_own_filter()) {
+    try {
+      screen_->keep(live_.tracer().grown());
+      kept_there_ = true;
+      return;
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::out_of_memory) throw;  // else the host does it
+    }
+  }
+  half_ = live_.tracer().picture().rgba;
 }
 
 bool Progressive::denoises() const {
@@ -193,8 +216,9 @@ SharedFrame Progressive::begin_filter(const std::function<bool()>& stop) {
   if (filter_.valid() && filter_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return {};  // that of a picture that is no longer shown
   const Settings settings = this->settings();
-  Image image = live_.tracer().picture();
   const Tracer::Progress progress = [&stop](double) { return !stop(); };
+  if (kept_there_) return filtered_there(settings, progress);
+  Image image = live_.tracer().picture();
   std::vector<vec4> base;
   try {
     image.aov = live_.tracer().trace_aov(live_.look(), last_->view, settings, progress);
@@ -210,6 +234,26 @@ SharedFrame Progressive::begin_filter(const std::function<bool()>& stop) {
   });
   stage_ = Stage::filtered;
   return {};
+}
+
+/// The last picture as the device filters it.
+SharedFrame Progressive::filtered_there(const Settings& settings, const Tracer::Progress& progress) {
+  DeviceGuide guide;
+  screen_->wait();  // which may read the one before
+  try {
+    guide =
+        live_.tracer().trace_guide(live_.look(), last_->view, settings, base_settings(settings), progress);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    return {};
+  }
+  const float share = static_cast<float>(settings.samples / 2) / static_cast<float>(settings.samples);
+  screen_->filter(live_.tracer().grown(), share, guide);
+  shows_filtered_ = true;
+  stage_ = Stage::finished;
+  Frame frame = *last_;
+  frame.denoised = true;
+  return coloured(std::move(frame));
 }
 
 /// The last picture as it was filtered, once it was.
@@ -293,6 +337,10 @@ void Progressive::display_on_device(Frame& frame) {
   const ShownAs how{*table_, frame.view, frame.moving, frame.is_seen, document_.eye_dome};
   if (!frame.image.rgba.empty()) {
     frame.shown = screen_->show(frame.image, how);
+    return;
+  }
+  if (shows_filtered_) {
+    frame.shown = screen_->show_filtered(how);
     return;
   }
   frame.shown = screen_->show(live_.tracer().grown(), how);

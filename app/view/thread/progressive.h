@@ -25,9 +25,10 @@ class Progressive {
   using Clock = std::chrono::steady_clock;
 
   /// `device`: its name. `shared`: the live scene's, where it also shows pictures, which then stay there; else null, and they are
-  /// brought to the host. It must outlive this and the frames.
-  Progressive(LiveScene& live, std::string device, const VulkanDevice* shared = nullptr)
-      : live_(live), device_(std::move(device)), shared_(shared) {}
+  /// brought to the host. It must outlive this and the frames. `filters_there`: whether our own filter runs on that; by default where it
+  /// is not the host's own processor.
+  Progressive(LiveScene& live, std::string device, const VulkanDevice* shared = nullptr,
+              std::optional<bool> filters_there = {});
 
   /// Shows this from now on, in a window of `window_px` pixels. A document equal to the last changes nothing; another starts
   /// the picture anew, with a coarse one until nothing has changed for a while. Only another exposure recolours it.
@@ -55,6 +56,8 @@ class Progressive {
   [[nodiscard]] SharedFrame trace_samples();
   [[nodiscard]] bool denoises() const;
   [[nodiscard]] SharedFrame begin_filter(const std::function<bool()>& stop);
+  [[nodiscard]] SharedFrame filtered_there(const Settings& settings, const Tracer::Progress& progress);
+  void keep_half();
   [[nodiscard]] SharedFrame filtered();
   void trace_aovs(Frame& frame, const Settings& settings, const std::function<bool()>& stop);
   [[nodiscard]] Settings settings() const;
@@ -69,7 +72,10 @@ class Progressive {
   LiveScene& live_;
   std::string device_;
   const VulkanDevice* shared_;
+  const bool filters_there_;
   std::optional<Screen> screen_;  ///< made with the first picture; none where `shared_` is null
+  bool kept_there_ = false;       ///< the first half is on the device, not in half_
+  bool shows_filtered_ = false;   ///< last_ is what the screen filtered
   Document document_;
   glm::uvec2 window_px_{0};
   Stage stage_ = Stage::finished;
