@@ -204,8 +204,9 @@ const RenderStats& Tracer::stats() const { return impl_->stats; }
 
 PoolBytes Tracer::pool_bytes() const {
   PoolBytes bytes = impl_->runner.scene.bytes();
-  const auto& begun = impl_->progressive.accumulation;
-  bytes.frame += impl_->runner.buffer_bytes() + (begun ? begun->size() : 0);
+  bytes.frame += impl_->runner.buffer_bytes();
+  for (const auto* buffer : {&impl_->progressive.accumulation, &impl_->guide_aov, &impl_->guide_base})
+    bytes.frame += *buffer ? (*buffer)->size() : 0;
   return bytes;
 }
 

@@ -119,6 +119,9 @@ TEST_F(DeviceFilterTest, JoinsTheSamplesThatWereBefore) {
     noisy.image.rgba[i] = (noisy.image.rgba[i] - 0.75F * before[i]) / 0.25F;
   }
   EXPECT_LE(most_apart(filtered(noisy, 0.25F, before), host), BOUND);
+  std::fill(noisy.image.rgba.begin(), noisy.image.rgba.end(), vec4(std::nanf("")));
+  EXPECT_LE(most_apart(filtered(noisy, 0.0F, NoisyImage(4).image.rgba), host), BOUND)
+      << "none is in the last mean yet";
 }
 
 TEST_F(DeviceFilterTest, EveryInputMayHoldAnything) {

@@ -301,7 +301,7 @@ TEST_F(SharedProgressiveTest, EndsWithoutNoiseAndAnExposureOnlyColours) {
 TEST_F(SharedProgressiveTest, TheNoiseIsTakenOutWhereThePictureIs) {
   Progressive there(live, "device", &device, true);
   document.request.look.style = LOOK_LIT;
-  for (const std::uint32_t samples : {4U, 130U}) {  // more than run on the device in one mean
+  for (const std::uint32_t samples : {4U, 66U}) {  // more than run on the device in one mean
     document.request.settings.samples = samples;
     const std::vector<vec4> expected = headless(true).rgba;
     for (const double exposure_ev : {0.0, -2.0}) {
