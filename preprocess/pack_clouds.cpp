@@ -44,12 +44,13 @@ std::uint32_t packed_clip(const Cloud& cloud, std::size_t i, const RootTransform
   return pack_clip(words, std::span(edges).first(clip.lines()));
 }
 
-/// The same with the ellipse of a point that lies on a line.
+/// The same with the ellipse of a point that has one.
 std::uint32_t packed_shape(const Cloud& cloud, std::size_t i, const RootTransform& root, const uvec4& words) {
   if (!cloud.clip_words.empty()) return cloud.clip_words[i];
   const std::uint32_t clip = packed_clip(cloud, i, root, words);
-  if (cloud.line.empty() || !(cloud.line[i].reach > 0.0F)) return clip;
-  return pack_ellipse(words, glm::normalize(glm::dvec3(cloud.line[i].along)), cloud.line[i].aspect, clip);
+  if (!cloud.is_ellipse(i)) return clip;
+  return pack_ellipse(words, glm::normalize(glm::dvec3(cloud.ellipse[i].short_axis)), cloud.ellipse[i].aspect,
+                      clip);
 }
 
 bool all_whole(const std::vector<std::uint32_t>& clips) {
@@ -71,7 +72,7 @@ SplatList pack_clouds(std::vector<Cloud> clouds, const RootTransform& root, bool
   for (const Cloud& cloud : clouds) {
     total += cloud.size();
     has_fields = has_fields || !cloud.field.empty() || !cloud.field_words.empty();
-    has_clips = has_clips || !cloud.clip.empty() || !cloud.line.empty() || !cloud.clip_words.empty();
+    has_clips = has_clips || !cloud.clip.empty() || !cloud.ellipse.empty() || !cloud.clip_words.empty();
     has_colors = has_colors || !cloud.color.empty();
   }
   SplatList splats;

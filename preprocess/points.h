@@ -43,6 +43,13 @@ struct PointClip {
   }
 };
 
+/// The shape of a splat that is longer than wide.
+struct PointEllipse {
+  glm::vec3 short_axis{0.0F};  ///< unit, square to the normal
+  float aspect = 1.0F;         ///< its length over its width, 1 or more
+  float half_length = 0.0F;    ///< world units; 0 = a disc
+};
+
 /// Where a sensor that moved was at a time.
 struct TrackPlace {
   double time;  ///< of the same clock as COLUMN_TIME
@@ -55,9 +62,10 @@ struct Points {
   std::vector<glm::vec3> normal;     ///< any length; empty = none given. A zero normal means "estimate me"
   /// Unit normals that light sees, where they are not those of the points' planes, else zero; empty = none
   std::vector<glm::vec3> shading;
-  std::vector<glm::vec3> color;  ///< linear rgb, 0..1; empty = none
-  std::vector<float> radius;     ///< world units; empty = none given
-  std::vector<PointClip> clip;   ///< where the surface ends; empty = nowhere
+  std::vector<glm::vec3> color;       ///< linear rgb, 0..1; empty = none
+  std::vector<float> radius;          ///< world units; empty = none given
+  std::vector<PointClip> clip;        ///< where the surface ends; empty = nowhere
+  std::vector<PointEllipse> ellipse;  ///< beside `radius`, half their lengths; empty = all are discs
   /// Display-encoded rgb of scans as stored, instead of `color`; empty = none. 1.0 is at `stored_color_most`, which 0 leaves
   /// to be judged from all files of the input: LAS has 8-bit colours in 16-bit fields.
   std::vector<glm::u16vec3> stored_color;

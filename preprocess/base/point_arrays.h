@@ -21,6 +21,7 @@ inline const std::tuple POINT_ARRAYS{PointArray<glm::dvec3>{&Points::position, {
                                      PointArray<glm::vec3>{&Points::color, glm::vec3(1.0F)},
                                      PointArray<float>{&Points::radius, 0.0F},
                                      PointArray<PointClip>{&Points::clip, {}},
+                                     PointArray<PointEllipse>{&Points::ellipse, {}},
                                      PointArray<glm::u16vec3>{&Points::stored_color, glm::u16vec3(0xFFFF)},
                                      PointArray<std::uint16_t>{&Points::station, 0},
                                      PointArray<std::uint32_t>{&Points::grid_cell, NO_CELL},

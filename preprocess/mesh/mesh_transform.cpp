@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "preprocess/base/unit_or_zero.h"
+
 namespace splatray {
 
 void transform_mesh(Mesh& mesh, const glm::dmat4& to_world) {
@@ -23,6 +25,10 @@ void transform_mesh(Mesh& mesh, const glm::dmat4& to_world) {
   }
   for (float& radius : mesh.vertices.radius) {
     radius = static_cast<float>(radius * std::cbrt(std::abs(volume)));
+  }
+  for (PointEllipse& ellipse : mesh.vertices.ellipse) {
+    ellipse.short_axis = glm::vec3(unit_or_zero(linear * glm::dvec3(ellipse.short_axis)));
+    ellipse.half_length = static_cast<float>(ellipse.half_length * std::cbrt(std::abs(volume)));
   }
   for (Station& station : mesh.vertices.stations) {
     if (station.sensor_world)

@@ -122,10 +122,6 @@ std::vector<std::uint32_t> find_bare(const Cloud& cloud, const std::vector<std::
   return bare;
 }
 
-bool is_ellipse(const Cloud& cloud, std::uint32_t i) {
-  return !cloud.line.empty() && cloud.line[i].reach > 0.0F;
-}
-
 /// Summed squares of radii.
 double area_of(const Cloud& cloud, const std::vector<std::uint32_t>& points) {
   double area = 0.0;
@@ -144,7 +140,7 @@ struct DiscAreas {
 DiscAreas measure_discs(const Cloud& cloud, const std::vector<std::uint32_t>& computed) {
   std::vector<std::uint32_t> discs;
   std::copy_if(computed.begin(), computed.end(), std::back_inserter(discs),
-               [&](std::uint32_t i) { return !is_ellipse(cloud, i); });
+               [&](std::uint32_t i) { return !cloud.is_ellipse(i); });
   DiscAreas areas{.area = area_of(cloud, discs)};
   std::erase_if(discs, [&](std::uint32_t i) { return !cloud.on_surface(i); });
   std::vector<float> radii = gather(cloud.radius, discs);
@@ -165,7 +161,7 @@ std::uint64_t make_dots(Cloud& cloud, const std::vector<std::uint32_t>& computed
     const bool ends = !cloud.clip.empty() && cloud.clip[i].lines() > 0;
     if (!cloud.on_surface(i))
       scattered.push_back(i);
-    else if (!ends && !is_ellipse(cloud, i))
+    else if (!ends && !cloud.is_ellipse(i))
       large.push_back(i);
   }
   const auto are_much = [&](const std::vector<std::uint32_t>& some) {

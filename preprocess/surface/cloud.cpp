@@ -28,6 +28,7 @@ constexpr std::tuple TAKEN{std::pair{&Points::position, &Cloud::position},
                            std::pair{&Points::grid_cell, &Cloud::grid_cell},
                            std::pair{&Points::radius, &Cloud::radius},
                            std::pair{&Points::clip, &Cloud::clip},
+                           std::pair{&Points::ellipse, &Cloud::ellipse},
                            std::pair{&Points::field_words, &Cloud::field_words},
                            std::pair{&Points::clip_words, &Cloud::clip_words}};
 
@@ -84,6 +85,7 @@ void normalise_coordinates(Cloud& cloud, const Bounds& bounds) {
   find_coordinates(cloud);
   const auto unit = static_cast<float>(1.0 / cloud.half_extent_world);
   for (PointClip& clip : cloud.clip) clip.distance[0] *= unit, clip.distance[1] *= unit, clip.reach *= unit;
+  for (PointEllipse& ellipse : cloud.ellipse) ellipse.half_length *= unit;
   tbb::parallel_for(std::size_t{0}, cloud.radius.size(), [&](std::size_t i) {
     if (cloud.radius[i] > 0.0F) {
       const double radius = cloud.radius[i] / cloud.half_extent_world;
@@ -103,8 +105,9 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
     const float radius = cloud.radius.empty() ? 0.0F : cloud.radius[i];
     const glm::vec3 shading = cloud.shading.empty() ? glm::vec3(0.0F) : cloud.shading[i];
     const ScanKind kind = cloud.kind.empty() ? ScanKind::surface : cloud.kind[i];
+    const float aspect = cloud.ellipse.empty() ? 1.0F : cloud.ellipse[i].aspect;
     return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), sort_key(shading), p.x, p.y, p.z,
-                      color, radius, station, cell, kind);
+                      color, radius, aspect, station, cell, kind);
   };
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;
@@ -138,7 +141,6 @@ void change_all(Cloud& cloud, const Change& change) {
   std::apply([&](const auto&... of) { (change(cloud.*of.second), ...); }, TAKEN);
   change(cloud.coord);
   change(cloud.color);
-  change(cloud.line);
   change(cloud.kind);
   change(cloud.radius_most);
   for (Column& column : cloud.columns) edit_values(column, change);
@@ -196,6 +198,17 @@ void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) {
         for (std::size_t n = 0; n < kept.size(); ++n) values[n] = values[kept[n]];
         values.resize(kept.size());
       });
+}
+
+std::size_t drop_copies(Cloud& cloud) {
+  const std::size_t before = cloud.size();
+  const auto is_first = [&](std::size_t i) {
+    const auto number = static_cast<std::uint32_t>(i);
+    return i == 0 || point_less(cloud, number - 1, number) || point_less(cloud, number, number - 1);
+  };
+  const std::vector<std::uint32_t> kept = numbers_where(before, is_first);
+  if (kept.size() < before) keep_points(cloud, kept);
+  return before - cloud.size();
 }
 
 void add_copies(Cloud& cloud, const std::vector<std::uint32_t>& of) {

@@ -18,13 +18,6 @@ class NearPlaces;
 /// Steps of Cloud::coord. Distinct coordinates differ by at least this, so no squared distance underflows.
 inline constexpr float COORD_STEP = 0x1p-24F;
 
-/// A point among lines of points that are far closer along these than the next lines are.
-struct PointLine {
-  glm::vec3 along{0.0F};  ///< the short axis of its splat, unit
-  float aspect = 1.0F;    ///< half a splat's length over half its width
-  float reach = 0.0F;     ///< half its length, across the line, to meet those of the next; 0 = a disc
-};
-
 /// Points of one object. All arrays that are not empty have the same length. Order: Morton key of the
 /// coordinates, then every attribute, so that shuffled input gives the same cloud.
 struct Cloud {
@@ -39,7 +32,7 @@ struct Cloud {
   std::vector<glm::vec3> field;          ///< normal field: uu, uv, vv of the change of the unit normal per
                                          ///< half_extent_world in TangentFrame(normal); empty = all flat
   std::vector<PointClip> clip;           ///< in units of half_extent_world; empty = the surface ends nowhere
-  std::vector<PointLine> line;           ///< in units of half_extent_world; empty = no point is on a line
+  std::vector<PointEllipse> ellipse;     ///< in units of half_extent_world; empty = all are discs
   std::vector<ScanKind> kind;            ///< of points that were measured; empty = all are of surfaces
   std::vector<float> radius_most;        ///< of unknown radii, the same units; empty or infinite = no limit
   std::vector<Column> columns;           ///< further attributes
@@ -66,6 +59,9 @@ struct Cloud {
   [[nodiscard]] glm::dvec3 in_cloud(const glm::dvec3& world) const {
     return (world - center_world) / half_extent_world;
   }
+  [[nodiscard]] bool is_ellipse(std::size_t i) const {
+    return !ellipse.empty() && ellipse[i].half_length > 0.0F;
+  }
   [[nodiscard]] bool on_surface(std::size_t i) const { return kind.empty() || kind[i] == ScanKind::surface; }
   /// The number of a point's station; meant only where there are stations.
   [[nodiscard]] std::size_t station_of(std::size_t i) const { return station.empty() ? 0 : station[i]; }
@@ -84,6 +80,9 @@ struct Cloud {
 /// that lie far from all others, before anything depends on the box of the points; normalises normals in float64, turns normals
 /// and radii that cannot be used into "unknown" and orders the points. Adds to the counts of `stats`.
 [[nodiscard]] Cloud make_cloud(Points&& points, bool oriented, bool measured, BuildStats& stats);
+
+/// Leaves one of points that are alike in all that is known of them. How many are gone.
+std::size_t drop_copies(Cloud& cloud);
 
 /// Leaves the points of these ascending numbers in the cloud; its frame stays.
 void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept);

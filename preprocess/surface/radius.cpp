@@ -254,11 +254,11 @@ void find_radii(Cloud& cloud, RadiusRule rule, double scale, bool fields, const 
     if (knn && !unknown.empty()) places.emplace(cloud, Sites::positions);
     const auto fill = [&](std::uint32_t i, std::span<const Neighbour> nearest) {
       const Neighbourhood around(cloud, i, nearest);
-      const bool on_line = !cloud.line.empty() && cloud.line[i].reach > 0.0F;
+      const bool on_line = cloud.is_ellipse(i);
       if (fields && !on_line) cloud.field[i] = fit_normal_field(around);  // a line alone determines none
       if (cloud.radius[i] != 0.0F) return;
       if (on_line) {
-        cloud.radius[i] = cloud.line[i].reach;
+        cloud.radius[i] = cloud.ellipse[i].half_length;
         return;
       }
       cloud.radius[i] =

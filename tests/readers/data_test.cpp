@@ -65,16 +65,12 @@ TEST(Data, EveryModelAndSceneIsRead) {
       if (testing::all_tests() || bytes_of(file) <= BYTES_FOR_A_LANDING) expect_sane(file);
 }
 
-TEST(Data, EveryPlyScanIsReadOrRefusedInOneSentence) {
+TEST(Data, EveryPlyScanIsRead) {
   if (std::getenv("SPLATRAY_DATA_DIR") == nullptr) {
     GTEST_SKIP() << "SPLATRAY_DATA_DIR is not set: no real scans to read";
   }
   for (const std::filesystem::path& file : data_files("scans")) {
-    if (file.string().find("compressed") != std::string::npos) {
-      EXPECT_NE(read_error(file).find("capture of 3D Gaussians"), std::string::npos);
-    } else {
-      EXPECT_GT(read_input({file}, {}).objects.at(0).points.size(), 10000U) << file;
-    }
+    EXPECT_GT(read_input({file}, {}).objects.at(0).points.size(), 10000U) << file;
   }
 }
 

@@ -1,4 +1,4 @@
-/// What PLY says of scans, and captures of 3D Gaussians.
+/// What PLY says of scans.
 #include <locale>
 
 #include "tests/readers/read_error.h"
@@ -114,25 +114,6 @@ TEST(PlyScan, TheLocaleOfTheProgramDoesNotMatter) {
   EXPECT_EQ(points.stations.at(0).sensor_world, glm::dvec3(0.25, -0.5, 1.0));
   EXPECT_EQ(points.position.at(1), glm::dvec3(1000.0, 0.0, 0.0));
   EXPECT_EQ(points.position.at(2), glm::dvec3(2.0, 0.0, 1.5));
-}
-
-TEST(Gaussians, CapturesAreRefusedInOneSentence) {
-  const TempFolder folder;
-  const std::string found = "found a capture of 3D Gaussians";
-  for (const char* name : {"a.spz", "a.sog", "a.KSPLAT", "a.splat"})
-    EXPECT_NE(read_error(folder.write(name, "anything")).find(found), std::string::npos) << name;
-  const std::string capture =
-      ply("", "property float f_dc_0\nproperty float opacity\nproperty float rot_0\n", "", "");
-  EXPECT_NE(read_error(folder.write("a.ply", capture)).find(found), std::string::npos);
-  EXPECT_NE(read_error(folder.write("b.ply",
-                                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
-                                    "end_header\n7\n"))
-                .find(found),
-            std::string::npos);
-  EXPECT_EQ(read_input({folder.write("c.ply", ply("", "property float opacity\n", "", "0 0 0 1\n", 1))}, {})
-                .objects.size(),
-            1U)
-      << "an opacity alone is none";
 }
 
 }  // namespace

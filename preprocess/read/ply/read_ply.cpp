@@ -5,9 +5,9 @@
 #include "engine/base/number_text.h"
 #include "preprocess/base/quoted_list.h"
 #include "preprocess/base/splat_marks.h"
+#include "preprocess/read/ply/ply_gaussians.h"
 #include "preprocess/read/ply/ply_scan.h"
 #include "preprocess/read/ply/ply_vertices.h"
-#include "preprocess/read/scan/gaussian_capture.h"
 
 namespace splatray {
 namespace {
@@ -131,12 +131,6 @@ bool has_triangles(const PlyHeader& header) {
                      [](const PlyElement& element) { return is_triangles(element) && element.count > 0; });
 }
 
-void refuse_gaussians(const PlyElement& vertices, const std::filesystem::path& path) {
-  std::vector<std::string> names;
-  for (const PlyProperty& property : vertices.properties) names.push_back(property.name);
-  refuse_gaussian_names(path, names);
-}
-
 std::vector<SplatMark> marks_of(const PlyHeader& header) {
   std::vector<SplatMark> marks;
   for (const std::string& remark : header.remarks)
@@ -190,7 +184,8 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
   ByteReader bytes(path, &listener);
   const PlyHeader header = read_ply_header(bytes);
   const PlyElement& vertices = vertex_element(header, path);
-  refuse_gaussians(vertices, path);
+  std::optional<PlyGaussians> gaussians;
+  if (PlyGaussians::are_in(vertices)) gaussians.emplace();
   const bool point_set = !has_triangles(header);
   const std::vector<SplatMark> marks = marks_of(header);
   PlyBody in(bytes, header);
@@ -202,7 +197,9 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
       continue;
     }
     const int list = find_index_list(element);
-    if (&element == &vertices) {
+    if (gaussians && PlyGaussians::takes(element)) {
+      cut.note(element, gaussians->read(in, element));
+    } else if (&element == &vertices) {
       std::vector<std::string> attributes = options.scans.attributes;
       if (has_splats(marks))
         for (const PlyProperty& property : element.properties) attributes.push_back(property.name);
@@ -219,6 +216,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
     }
   }
   in.finish();
+  if (gaussians) listener.note(path, gaussians->note()), mesh.vertices = gaussians->points();
   cut.report(path, options.scans, listener);
   if (point_set) place_sensors(header, mesh.vertices), take_marks(marks, mesh.vertices);
   if (!skipped.empty()) {

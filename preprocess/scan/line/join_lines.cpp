@@ -23,7 +23,7 @@ constexpr float ROUND_TURN = 1.4F;    // of the ways on both sides: from here on
 constexpr float HOLE = 4.0F;          // of the other side's way
 constexpr float LEAST_LINE_ASPECT = 3.0F;   // of ways over steps, below which discs do
 constexpr float EVEN_RUN = 2.5F;            // of a step, to the next point of a run
-constexpr float MOST_SLIM = 4.0F;           // length of what joins lines over the width of the run: no spokes
+constexpr float MOST_SLIM = 2.0F;           // length of what joins lines over the width of the run: no spokes
 constexpr float ONE_SURFACE_COSINE = 0.9F;  // cosine of normals of one surface
 
 /// The turn between ways that a surface goes, by its cosine, radians.
@@ -86,7 +86,7 @@ glm::vec3 normal_of(const LinePlace& place, const LinePlane& plane, const glm::v
 }
 
 /// The splat of a point on a line: long across to the next lines, however those are turned; a disc where these are near.
-PointLine ellipse_of(const LinePlace& place, const LinePlane& plane, const glm::vec3& normal) {
+PointEllipse ellipse_of(const LinePlace& place, const LinePlane& plane, const glm::vec3& normal) {
   const float way = std::max(plane.ways[0], plane.ways[1]);
   const glm::vec3 short_axis = glm::normalize(glm::cross(normal, plane.across));
   const float step = place.step * std::abs(glm::dot(short_axis, place.along));
@@ -185,14 +185,14 @@ void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<L
   cloud.normal = averaged_normals(cloud, survey, places);
   if (!ellipses) return;
   const std::vector<float> widths = run_widths(cloud, places);
-  cloud.line.resize(cloud.size());
+  cloud.ellipse.resize(cloud.size());
   cloud.clip.resize(cloud.size());
   cloud.radius_most.resize(cloud.size(), std::numeric_limits<float>::infinity());
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     if (!places[i].plane) return;
     for (float& way : planes[i].ways) way = std::min(way, MOST_SLIM * widths[i]);
-    cloud.line[i] = ellipse_of(places[i], planes[i], cloud.normal[i]);
-    if (cloud.line[i].reach > 0.0F)
+    cloud.ellipse[i] = ellipse_of(places[i], planes[i], cloud.normal[i]);
+    if (cloud.is_ellipse(i))
       cloud.clip[i] = end_of(planes[i], cloud.normal[i]);
     else
       cloud.radius_most[i] = COVERS * std::max({planes[i].ways[0], planes[i].ways[1], places[i].step});

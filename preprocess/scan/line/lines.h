@@ -33,7 +33,7 @@ struct LinePlace {
 [[nodiscard]] std::vector<LinePlace> find_lines(const Cloud& cloud, const Survey& survey, const Stage& stage);
 
 /// Lays a surface through lines that go on straight from one to the next: its normal, where that was estimated from one line
-/// alone, and with `ellipses` Cloud::line, Cloud::radius_most of discs, and clip lines where the surface is known on one side
+/// alone, and with `ellipses` Cloud::ellipse, Cloud::radius_most of discs, and clip lines where the surface is known on one side
 /// alone or lines are closer there. Lines whose neighbours suggest no surface stay as they are.
 void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<LinePlace>& places);
 
@@ -44,6 +44,13 @@ void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<L
 
 /// What lines of all surfaces lie across, as far as they can: a spinning scanner's axis, unit. Zero where no direction is that.
 [[nodiscard]] glm::dvec3 axis_of_lines(const std::vector<LinePlace>& places);
+
+/// The axis, x, y or z, that a scanner at `sensor` turned about, where these points lie on its rings: from there they have few elevations,
+/// whatever their ranges. None where they do not, as with a sensor elsewhere, and where each ring has one range, as on what was turned
+/// on a lathe.
+[[nodiscard]] std::optional<glm::dvec3> find_ring_axis(const Cloud& cloud,
+                                                       const std::vector<std::uint32_t>& points,
+                                                       const glm::dvec3& sensor);
 
 /// What a scanner at one place saw.
 struct Sweep {
@@ -62,7 +69,7 @@ void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint
                  const Sweep& sweep, bool bound, std::vector<LinePlace>& places);
 
 /// Lays surfaces through lines as find_lines has them and, of stations whose places are known, through rings; where `splats`, these are
-/// ellipses (Cloud::line) and bounds of discs.
+/// ellipses (Cloud::ellipse) and bounds of discs.
 void lay_line_surfaces(Cloud& cloud, const Survey& survey, bool splats, std::vector<LinePlace> lines);
 
 }  // namespace splatray

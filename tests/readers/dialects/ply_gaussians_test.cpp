@@ -1,0 +1,155 @@
+/// Captures of 3D Gaussians in PLY files become discs; those of other formats are refused.
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "preprocess/build.h"
+#include "tests/readers/read_error.h"
+
+namespace splatray {
+namespace {
+
+const double HALF_OPAQUE = std::sqrt(
+    2.0 * std::log(2.0));  // deviations to where a Gaussian that is opaque in its centre is half opaque
+
+std::string plain_head(int count, const std::string& more = "") {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2", "opacity",
+                           "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
+    text += std::string("property float ") + name + "\n";
+  return text + more + "end_header\n";
+}
+
+/// A row: centre, no normal, colour 0.75 0.5 0.25, logit of opacity, deviations 0.1 0.4 0.2 and a quaternion.
+std::string plain_row(const std::string& centre, const std::string& logit, const std::string& quaternion) {
+  const double of_quarter = 0.25 / 0.28209479177387814;
+  return centre + " 0 0 0 " + std::to_string(of_quarter) + " 0 " + std::to_string(-of_quarter) + " " + logit +
+         " " + std::to_string(std::log(0.1)) + " " + std::to_string(std::log(0.4)) + " " +
+         std::to_string(std::log(0.2)) + " " + quaternion + "\n";
+}
+
+void expect_near(const glm::dvec3& found, const glm::dvec3& expected, double within) {
+  EXPECT_LT(glm::distance(found, expected), within) << found.x << ' ' << found.y << ' ' << found.z;
+}
+
+/// The same up to its sign.
+void expect_axis(const glm::dvec3& found, const glm::dvec3& expected, double within) {
+  expect_near(glm::dot(found, expected) < 0.0 ? -found : found, expected, within);
+}
+
+TEST(Gaussians, ArePlainDiscsToHalfTheirOpacity) {
+  const TempFolder folder;
+  const std::string rows = plain_row("1 2 3", "40", "1 0 0 0") + plain_row("4 5 6", "40", "2 0 0 2") +
+                           plain_row("7 8 9", "-0.01", "1 0 0 0") + plain_row("7 8 9", "nan", "1 0 0 0") +
+                           plain_row("7 8 9", "40", "0 0 0 0") + plain_row("7 8 9", "1.0986123", "1 0 0 0");
+  const Input input = read_input({folder.write("a.ply", plain_head(6) + rows)}, {});
+  const Points& points = input.objects.at(0).points;
+  ASSERT_EQ(points.size(), 3U);
+  expect_near(points.position[0], {1, 2, 3}, 1e-6);
+  expect_axis(points.normal[0], {1, 0, 0}, 1e-6);  // across the least deviation
+  expect_axis(points.ellipse.at(0).short_axis, {0, 0, 1}, 1e-6);
+  EXPECT_NEAR(points.ellipse[0].aspect, 2.0, 1e-4);
+  EXPECT_NEAR(points.radius.at(0), 0.4 * HALF_OPAQUE, 1e-5);
+  EXPECT_EQ(points.ellipse[0].half_length, points.radius[0]);
+  expect_axis(points.normal[1], {0, 1, 0}, 1e-6);  // turned by 90 degrees about z
+  EXPECT_NEAR(points.radius[2], 0.4 * std::sqrt(2.0 * std::log(1.5)), 1e-5) << "of an opacity of 3/4";
+  EXPECT_NEAR(points.color.at(0).x, 0.5225, 1e-3);  // 0.75, 0.5 and 0.25 of sRGB
+  EXPECT_NEAR(points.color[0].y, 0.2140, 1e-3);
+  EXPECT_NEAR(points.color[0].z, 0.0509, 1e-3);
+  EXPECT_EQ(input.up, glm::dvec3(0, -1, 0));
+  EXPECT_TRUE(has_note(input, "3 of 6 are discs"));
+  EXPECT_TRUE(has_note(input, "1 are less opaque"));
+  EXPECT_TRUE(has_note(input, "2 are no Gaussians"));
+}
+
+std::string words_of(std::initializer_list<std::uint32_t> words) {
+  std::string bytes(4 * words.size(), '\0');
+  std::memcpy(bytes.data(), words.begin(), bytes.size());
+  return bytes;
+}
+
+std::string packed_file(int chunks, int count, const std::string& rows) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement chunk " + std::to_string(chunks) + "\n";
+  for (const char* name : {"min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "min_scale_x", "min_scale_y",
+                           "min_scale_z", "max_scale_x", "max_scale_y", "max_scale_z"})
+    text += std::string("property float ") + name + "\n";
+  text += "element vertex " + std::to_string(count) + "\n";
+  for (const char* name : {"packed_position", "packed_rotation", "packed_scale", "packed_color"})
+    text += std::string("property uint ") + name + "\n";
+  text += "end_header\n";
+  for (int chunk = 0; chunk < chunks; ++chunk)
+    for (const float value : {0.0F, 10.0F, -1.0F, 1.0F, 20.0F, 1.0F, -3.0F, -3.0F, -3.0F, 0.0F, 0.0F, 0.0F})
+      text += words_of({std::bit_cast<std::uint32_t>(value + (value == 1.0F && chunk == 1 ? 1.0F : 0.0F))});
+  return text + rows;
+}
+
+TEST(Gaussians, PackedOnesLieBetweenTheirChunksEnds) {
+  const TempFolder folder;
+  // A turn by 90 degrees about z: w and z are 1/sqrt(2), w is left out (number 0); x and y are in the middle of 10 bits.
+  const std::uint32_t turned = 0U << 30 | 512U << 20 | 512U << 10 | 1023U;
+  // w, x, y, z = 0, 0, 0, 1: z is left out (number 3).
+  const std::uint32_t about_z = 3U << 30 | 512U << 20 | 512U << 10 | 512U;
+  const std::uint32_t scale = 0U << 21 | 1023U << 11 | 1024U;
+  const std::uint32_t color = 255U << 24 | 0U << 16 | 128U << 8 | 255U;
+  std::string rows = words_of({2047U << 21, turned, scale, color}) + words_of({2047U, about_z, scale, color});
+  for (int i = 2; i < 257; ++i) rows += words_of({2047U << 21 | 1023U << 11, turned, scale, color});
+  const Input input = read_input({folder.write("a.ply", packed_file(2, 257, rows))}, {});
+  const Points& points = input.objects.at(0).points;
+  ASSERT_EQ(points.size(), 257U);
+  expect_near(points.position[0], {1, 10, -1}, 1e-6);
+  expect_near(points.position[1], {0, 10, 1}, 1e-6);
+  expect_near(points.position[256], {2, 20, -1}, 1e-6);  // of the second chunk
+  expect_axis(points.normal[0], {0, 1, 0}, 0.01);
+  expect_axis(points.normal[1], {1, 0, 0}, 0.01);
+  EXPECT_NEAR(points.radius.at(0), HALF_OPAQUE, 1e-5);
+  EXPECT_NEAR(points.ellipse.at(0).aspect, std::exp(3.0 - 3.0 * 1024 / 2047), 1e-3);
+  EXPECT_EQ(points.color.at(0).x, 1.0F);
+  EXPECT_EQ(points.color[0].y, 0.0F);
+  EXPECT_NEAR(points.color[0].z, 0.2159, 1e-3);
+}
+
+TEST(Gaussians, BecomeEllipsesOfTheScene) {
+  const TempFolder folder;
+  std::string rows;
+  for (int i = 0; i < 400; ++i)
+    rows += plain_row("0 " + std::to_string(0.5 * (i % 20)) + " " + std::to_string(0.3 * (i / 20)), "40",
+                      "1 0 0 0");
+  BuildStats stats;
+  const Scene scene =
+      build_scene(read_input({folder.write("a.ply", plain_head(400) + rows)}, {}), {}, 0, stats);
+  EXPECT_EQ(stats.ellipses, 400U);
+  EXPECT_EQ(scene.data_pool.size(), 400U);
+}
+
+TEST(Gaussians, LessThanTheirHeaderSaysIsReadOrRefused) {
+  const TempFolder folder;
+  EXPECT_NE(read_error(folder.write("a.ply", packed_file(1, 257, "")))
+                .find("found 1 chunks before 257 packed Gaussians, expected 2"),
+            std::string::npos);
+  EXPECT_NE(read_error(folder.write("b.ply",
+                                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
+                                    "end_header\n7\n"))
+                .find("'vertex' has no property 'packed_rotation'"),
+            std::string::npos);
+  const auto cut = folder.write(
+      "c.ply", plain_head(3) + plain_row("1 2 3", "40", "1 0 0 0") + plain_row("1 2 4", "40", "1 0 0 0"));
+  const Input input = read_input({cut}, {});
+  EXPECT_EQ(input.objects.at(0).points.size(), 2U);
+  EXPECT_TRUE(has_note(input, "found 2 rows of element 'vertex'"));
+}
+
+TEST(Gaussians, CapturesInOtherFormatsAreRefusedInOneSentence) {
+  const TempFolder folder;
+  for (const char* name : {"a.spz", "a.sog", "a.KSPLAT", "a.splat"})
+    EXPECT_NE(read_error(folder.write(name, "anything")).find("found a capture of 3D Gaussians"),
+              std::string::npos)
+        << name;
+  const std::string opacity =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float opacity\nend_header\n0 0 0 1\n";
+  EXPECT_EQ(read_input({folder.write("c.ply", opacity)}, {}).objects.size(), 1U)
+      << "an opacity alone is none";
+}
+
+}  // namespace
+}  // namespace splatray
