@@ -377,7 +377,7 @@ Scene build_scene(Input input, const BuildParams& params, unsigned threads, Buil
     note_coarse_objects(clouds, scene.object_names, scene.root.unit_world, stats);
     splats = pack_clouds(std::move(clouds), scene.root, !columns.empty(), {"packing", progress});
     require_stage_memory("order", splats.size(), ORDER_BYTES);
-    stats.dropped_duplicates =
+    stats.dropped_duplicates +=
         order_splats(splats, params.leaf_size > 0 ? std::min(params.leaf_size, MOST_EQUAL) : MOST_EQUAL);
   }
   place_columns(std::move(columns), std::exchange(splats.point, {}), scene);

@@ -117,13 +117,13 @@ std::string build_summary(const BuildStats& stats, const std::filesystem::path& 
   };
   repair(stats.dropped_non_finite, "points dropped: position not finite or beyond 1e100");
   repair(stats.dropped_far, "points dropped: far from all others");
-  repair(stats.dropped_duplicates, "points dropped: copies of one splat beyond the most that are kept");
+  repair(stats.dropped_duplicates, "points dropped: copies of others");
   repair(stats.normals_estimated, "normals estimated");
   report_scans(stats, text);
   repair(stats.radii_repaired, "given radii computed anew: zero, negative or not finite");
   repair(stats.radii_isolated, "points without neighbours: radius relative to the scene");
   repair(stats.clipped, "splats end at a border or a crease");
-  repair(stats.ellipses, "splats are ellipses, as points lie in lines");
+  repair(stats.ellipses, "splats are ellipses");
   text << "  " << stats.nodes << " nodes, " << stats.filled_leaves << " filled leaves, depth " << stats.depth
        << ", " << stats.references << " references: growth " << 100.0 * stats.growth << " %";
   if (stats.growth_overlap > stats.growth) text << " (overlap: " << 100.0 * stats.growth_overlap << " %)";

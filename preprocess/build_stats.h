@@ -12,9 +12,10 @@ struct BuildStats {
   std::uint64_t points_read = 0;
   std::uint64_t dropped_non_finite = 0;  ///< position not finite, or beyond 1e100
   std::uint64_t dropped_far = 0;         ///< of scans: a handful far from all others (find_far_points)
-  std::uint64_t dropped_duplicates = 0;  ///< copies of a splat (same 128 bits) beyond 8, or leaf_size if less
-  std::uint64_t dropped_isolated = 0;    ///< strays of scans: far from all others
-  std::uint64_t dropped_mixed = 0;       ///< of scans with grids: between the two surfaces that a beam met
+  /// Points of scans that are copies of others, and copies of a splat (same 128 bits) beyond 8, or leaf_size if less.
+  std::uint64_t dropped_duplicates = 0;
+  std::uint64_t dropped_isolated = 0;     ///< strays of scans: far from all others
+  std::uint64_t dropped_mixed = 0;        ///< of scans with grids: between the two surfaces that a beam met
   std::uint64_t dropped_unsupported = 0;  ///< of noisy scans: fewer than 6 neighbours on their surface
   std::array<std::uint64_t, 3> kinds{};   ///< of scans without normals: points of each ScanKind
   std::uint64_t smoothed = 0;             ///< points of noisy scans, moved onto their surface

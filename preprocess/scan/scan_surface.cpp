@@ -55,9 +55,9 @@ void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, Bui
   for (const SharpSide& side : sharp)
     if (side.crease && !survey.flatness.empty()) survey.flatness[side.point] = 0.0F;
   cloud.kind = find_kinds(cloud, survey);
-  if (!cloud.kind.empty() && !cloud.line.empty())
+  if (!cloud.kind.empty() && !cloud.ellipse.empty())
     for (std::size_t i = 0; i < cloud.size(); ++i)
-      if (cloud.line[i].reach > 0.0F || std::isfinite(cloud.radius_most[i]))
+      if (cloud.is_ellipse(i) || (!cloud.radius_most.empty() && std::isfinite(cloud.radius_most[i])))
         cloud.kind[i] = ScanKind::surface;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (survey.estimated[i] == 0) continue;
@@ -65,7 +65,7 @@ void sort_kinds(Cloud& cloud, Survey& survey, std::vector<SharpSide>& sharp, Bui
   }
   // What a line's own points say of its ends and sides is not of the surface.
   std::erase_if(sharp, [&](const SharpSide& side) {
-    return !cloud.on_surface(side.point) || (!cloud.line.empty() && cloud.line[side.point].reach > 0.0F);
+    return !cloud.on_surface(side.point) || cloud.is_ellipse(side.point);
   });
 }
 
@@ -221,6 +221,7 @@ std::uint64_t count_unknown(const Survey& survey) {
 
 std::uint64_t find_scan_surface(Cloud& cloud, const glm::dvec3& up, const BuildParams& params,
                                 const Stage& stage, BuildStats& stats) {
+  if (!params.keep_strays) stats.dropped_duplicates += drop_copies(cloud);
   const std::vector<double> steps = station_step_world(cloud);
   const GridSurface grids = params.keep_strays ? GridSurface{} : find_grids(cloud, params, stage, stats);
   const bool all_in_grids = grids.points > 0 && grids.points == cloud.size();

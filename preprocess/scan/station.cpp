@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -137,6 +138,17 @@ std::vector<Candidate> first_candidates(std::span<const Patch> patches, const Oc
   return candidates;
 }
 
+/// The world's origin, cloud coordinates.
+glm::dvec3 world_origin(const Cloud& cloud) { return cloud.in_cloud(glm::dvec3(0.0)); }
+
+/// Whether all lies on rings around the world's origin, as in a scanner's own frame.
+bool is_spun_around_origin(const Cloud& cloud) {
+  if (cloud.stations.size() > 1) return false;
+  std::vector<std::uint32_t> all(cloud.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return find_ring_axis(cloud, all, world_origin(cloud)).has_value();
+}
+
 /// Whether all was seen from the world's origin, as a depth camera's frame has it.
 bool is_in_camera_frame(const Cloud& cloud, const glm::dvec3& up) {
   constexpr std::size_t MOST = 1U << 16;
@@ -177,8 +189,9 @@ double find_station(Cloud& cloud, const Survey& survey, const std::vector<LinePl
                                  [](const Station& station) { return station.sensor_world.has_value(); });
   if (known) return 0.0;
   std::optional<glm::dvec3> sensor;
-  if (!lines.empty()) sensor = find_spinning_sensor(cloud, lines);
-  if (!sensor && is_in_camera_frame(cloud, up)) sensor = -cloud.center_world / cloud.half_extent_world;
+  if (is_spun_around_origin(cloud)) sensor = world_origin(cloud);
+  if (!sensor && !lines.empty()) sensor = find_spinning_sensor(cloud, lines);
+  if (!sensor && is_in_camera_frame(cloud, up)) sensor = world_origin(cloud);
   double explained = 0.0;
   const bool asked = !sensor && cloud.track.empty() && !survey.flatness.empty();
   if (asked && (!open_sheet_axis(cloud, survey, up) || is_room(cloud, survey, up))) {

@@ -24,7 +24,8 @@ struct StationFound {
 /// from several places, of those that were thinned evenly, and where one density explains more than 0.6.
 [[nodiscard]] std::optional<StationFound> find_scanner_place(const Cloud& cloud, const Survey& survey);
 
-/// Gives a cloud of which no scanner's place is known a station at the one that its rings show (find_spinning_sensor), at the origin of
+/// Gives a cloud of which no scanner's place is known a station at the origin, where all lies on rings around it (find_ring_axis), at the
+/// place that its rings show (find_spinning_sensor), at the origin of
 /// a depth camera's frame (is_seen_along_z) or, of rooms and of all that is no open sheet, where it explains how dense the points are.
 /// Returns StationFound::explained of the latter, else 0.
 double find_station(Cloud& cloud, const Survey& survey, const std::vector<LinePlace>& lines,

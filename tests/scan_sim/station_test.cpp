@@ -138,5 +138,60 @@ TEST(FoundStation, IsTheOriginOfADepthCamerasFrame) {
   EXPECT_GT(share_that_faces_origin(built), 0.99);
 }
 
+/// A room of 8 x 6 x 3 as a scanner at the origin saw it, one point for each step of both angles, each stored twice.
+Points spun_room() {
+  constexpr int ROWS = 180, COLUMNS = 330;
+  const glm::dvec3 low(-3.0, -2.0, -1.3), high(5.0, 4.0, 1.7);
+  Points seen;
+  for (int row = 0; row < ROWS; ++row)
+    for (int column = 0; column < COLUMNS; ++column) {
+      const double rise = std::numbers::pi * ((row + 0.5) / ROWS - 0.5),
+                   turn = 2.0 * std::numbers::pi * column / COLUMNS;
+      const glm::dvec3 dir(std::cos(rise) * std::cos(turn), std::cos(rise) * std::sin(turn), std::sin(rise));
+      double away = INFINITY;
+      for (int axis = 0; axis < 3; ++axis)
+        if (dir[axis] != 0.0) away = std::min(away, (dir[axis] > 0.0 ? high : low)[axis] / dir[axis]);
+      seen.position.insert(seen.position.end(), 2, away * dir);
+    }
+  return seen;
+}
+
+TEST(FoundStation, IsTheOriginThatRingsRunAround) {
+  Input input;
+  input.objects.resize(1);
+  input.objects[0].points = spun_room();
+  const std::size_t stored = input.objects[0].points.size();
+  BuiltScan built;
+  built.scene = build_scene(std::move(input), {}, 0, built.stats);
+  EXPECT_EQ(built.stats.dropped_duplicates, stored / 2) << "copies hide the steps along rings";
+  ASSERT_TRUE(built.scene.stations.at(0).sensor_found_world);
+  EXPECT_LT(glm::length(*built.scene.stations[0].sensor_found_world), 1e-6);
+  EXPECT_GT(share_that_faces_origin(built), 0.99);
+  std::size_t floor = 0, closed = 0;  // out where rings are far from each other
+  for (const uvec4& words : built.scene.data_pool) {
+    const Splat splat = unpack_splat(words);
+    const glm::dvec3 place = built.scene.root.to_world(splat.center);
+    const double away = std::hypot(place.x, place.y);
+    if (place.z > -1.29 || away < 2.0 || away > 3.5) continue;
+    const double gap = (away * away + 1.3 * 1.3) / 1.3 * std::numbers::pi / 180.0;  // to the next ring
+    ++floor;
+    closed += std::sqrt(splat.radius_squared) * built.scene.root.unit_world >= 0.5 * gap ? 1 : 0;
+  }
+  ASSERT_GT(floor, 1000U);
+  EXPECT_GT(static_cast<double>(closed), 0.95 * static_cast<double>(floor));
+}
+
+TEST(FoundStation, IsNoneInWhatWasTurnedOnALathe) {
+  Points vase;
+  for (int row = 0; row < 120; ++row)
+    for (int column = 0; column < 200; ++column) {
+      const double turn = 2.0 * std::numbers::pi * column / 200.0, height = 0.02 * row - 1.0;
+      const double wide = 0.6 + 0.2 * std::sin(3.0 * height);
+      vase.position.emplace_back(wide * std::cos(turn), wide * std::sin(turn), height);
+    }
+  const BuiltScan built = build_scan(vase);
+  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 0U);
+}
+
 }  // namespace
 }  // namespace splatray::testing

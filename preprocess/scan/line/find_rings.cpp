@@ -127,18 +127,20 @@ class SweepColumns {
   std::vector<std::uint32_t> begin_, order_;
 };
 
-/// The median angle of steps along lines.
-float step_angle(const Cloud& cloud, const std::vector<std::uint32_t>& points, const glm::dvec3& sensor,
+/// The median turn of steps along lines that are rings.
+float step_angle(const Directions& directions, const std::vector<std::uint32_t>& points, std::size_t size,
                  const std::vector<LinePlace>& places) {
-  std::vector<float> angles;
-  for (const std::uint32_t i : points) {
-    if (!(places[i].step > 0.0F)) continue;
-    const glm::dvec3 from = glm::dvec3(cloud.coord[i]) - sensor,
-                     to = glm::dvec3(cloud.coord[places[i].next]) - sensor;
-    const double lengths = glm::length(from) * glm::length(to);
-    if (lengths > 0.0) angles.push_back(static_cast<float>(glm::length(glm::cross(from, to)) / lengths));
+  std::vector<std::uint32_t> number(size, NO_CELL);
+  for (std::uint32_t n = 0; n < points.size(); ++n) number[points[n]] = n;
+  std::vector<float> turns;
+  for (std::uint32_t n = 0; n < points.size(); ++n) {
+    const LinePlace& place = places[points[n]];
+    const std::uint32_t next = place.step > 0.0F ? number[place.next] : NO_CELL;
+    if (next == NO_CELL) continue;
+    const float turn = std::abs(turn_between(directions.azimuth[n], directions.azimuth[next]));
+    if (turn > std::abs(directions.elevation[next] - directions.elevation[n])) turns.push_back(turn);
   }
-  return ranked(std::move(angles), 0.5);
+  return ranked(std::move(turns), 0.5);
 }
 
 /// Steps to the neighbours on two sides: the longer one where both are of one surface, and 0 where there is none.
@@ -234,10 +236,11 @@ glm::dvec3 axis_of_lines(const std::vector<LinePlace>& places) {
 std::optional<Sweep> find_rings(const Cloud& cloud, const std::vector<std::uint32_t>& points,
                                 const glm::dvec3& sensor, std::vector<LinePlace>& places) {
   if (places.empty() || points.size() < FEWEST_RINGS_POINTS) return {};
-  const float step = step_angle(cloud, points, sensor, places);
-  const glm::dvec3 axis = axis_of_lines(places);
-  if (!(step > 0.0F) || axis == glm::dvec3(0.0)) return {};
+  const glm::dvec3 axis = find_ring_axis(cloud, points, sensor).value_or(axis_of_lines(places));
+  if (axis == glm::dvec3(0.0)) return {};
   const Directions directions = directions_of(cloud, points, sensor, axis);
+  const float step = step_angle(directions, points, cloud.size(), places);
+  if (!(step > 0.0F)) return {};
   const SweepColumns columns(directions, step);
   std::vector<SweepColumns::Beside> beside(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(),
@@ -263,7 +266,7 @@ void settle_rest(Cloud& cloud, const Survey& survey, const std::vector<std::uint
     glm::vec3& normal = cloud.normal[i];
     const bool plane = places[i].plane;
     if (!plane && survey.estimated[i] != 0 && std::abs(glm::dot(normal, sight)) < SIGHT) normal = sight;
-    if (!bound || cloud.line[i].reach > 0.0F) return;
+    if (!bound || cloud.is_ellipse(i)) return;
     const float sine = plane ? std::max(std::abs(glm::dot(normal, sight)), SIGHT) : 1.0F;
     const float most = COVERS_GAP * static_cast<float>(sweep.gap) * range / sine;
     cloud.radius_most[i] = std::min(most, cloud.radius_most[i]);
