@@ -6,9 +6,11 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/release.h"
 #include "engine/file/file_mapping.h"
 #include "engine/scene/look_style.h"
+#include "engine/scene/pool/huge_pages.h"
 #include "engine/scene/pool/pool_table.h"
 #include "engine/scene/scene_splat.h"
 #include "engine/scene/wide/wide_tree.h"
@@ -46,12 +48,14 @@ void DeviceScene::upload(const Scene& scene, Scene* spent, const Planned& planne
   bindings_.reset();
   wide_nodes_.reset();
   pools_ = {};  // the device may not have room for two scenes
+  walked_.clear();
   PoolRequest request = request_;
   if (queue_.walks_wide_tree()) request.data = DataPool::references;
   plan(scene, request);
   try {
     if (planned) planned();
     const std::size_t splats = splat_count(scene);
+    if (queue_.walks_wide_tree()) list_walked(scene);
     if (queue_.walks_wide_tree())
       wide_nodes_ = queue_.lend(std::as_bytes(std::span(scene.wide_nodes)), scene.wide_nodes.keeper());
     if (spent != nullptr) spent->wide_nodes = {};
@@ -61,6 +65,43 @@ void DeviceScene::upload(const Scene& scene, Scene* spent, const Planned& planne
   } catch (...) {
     bindings_.reset();
     throw;
+  }
+}
+
+/// Notes where the arrays are that rays wait for; they stay there, lent.
+void DeviceScene::list_walked(const Scene& scene) {
+  walked_.push_back({BIND_DATA_POOL, std::as_bytes(std::span(scene.wide_nodes))});
+  std::uint32_t binding = BIND_POOLS;
+  for_each_pool([&](const auto& row) {
+    if (row.listed() && plan_.bytes.at(binding) > 0)
+      walked_.push_back({binding, std::as_bytes(std::span(scene.*row.pool))});
+    ++binding;
+  });
+  walked_bytes_ = rays_ = 0;
+  for (const WalkedArray& array : walked_) walked_bytes_ += array.bytes.size();
+}
+
+void DeviceScene::expect_rays(std::uint64_t rays) {
+  rays_ += rays;
+  if (walked_.empty() || !worth_huge_pages(walked_bytes_, rays_, UINT64_MAX)) return;
+  if (worth_huge_pages(walked_bytes_, rays_, available_memory())) copy_walked();
+  walked_.clear();
+}
+
+/// Copies them into huge pages and binds the copies.
+void DeviceScene::copy_walked() {
+  for (const WalkedArray& array : walked_) {
+    const std::shared_ptr<const std::byte> copy = copy_in_huge_pages(array.bytes);
+    if (copy == nullptr) return;
+    std::unique_ptr<Buffer> buffer = queue_.lend({copy.get(), array.bytes.size()}, copy);
+    if (&array == &walked_.front()) {
+      bindings_->bind_wide_tree(*buffer, plan_.bytes.at(BIND_DATA_POOL) / sizeof(uvec4));
+      wide_nodes_ = std::move(buffer);
+      continue;
+    }
+    PagedBuffer& pool = pools_[array.binding - BIND_POOLS];
+    pool = PagedBuffer(std::move(buffer));
+    bindings_->bind(array.binding, pool);
   }
 }
 

@@ -22,6 +22,12 @@ namespace splatray {
 /// Called once all is known of a scene that programs depend on, before its pools are uploaded.
 using Planned = std::function<void()>;
 
+/// An array that lies where a scene has it.
+struct WalkedArray {
+  std::uint32_t binding;  ///< BIND_DATA_POOL of the wide tree's nodes, too, which come first
+  std::span<const std::byte> bytes;
+};
+
 class DeviceScene {
  public:
   /// Nothing yet, black all around. The device and the queue must outlive it.
@@ -41,6 +47,9 @@ class DeviceScene {
   /// Bindings of the uploaded scene; its own are set by bind().
   [[nodiscard]] Bindings& bindings() { return *bindings_; }
   void bind();
+  /// Says that so many rays of a camera are about to be traced. Where the host walks the scene, copies what they wait for into huge
+  /// pages, once that is worth it (worth_huge_pages).
+  void expect_rays(std::uint64_t rays);
 
   [[nodiscard]] PoolBytes bytes() const;
   /// What the features of a pipeline depend on.
@@ -53,6 +62,8 @@ class DeviceScene {
   /// `spent`: as upload_pools has it.
   void upload(const Scene& scene, Scene* spent, const Planned& planned);
   void plan(const Scene& scene, const PoolRequest& request);
+  void list_walked(const Scene& scene);
+  void copy_walked();
   void upload_tables(const SkyTable& sky);
   void show_materials(const std::vector<Material>& materials);
   void show_lights(const Look& look);
@@ -70,6 +81,9 @@ class DeviceScene {
   PoolPlan plan_;
   PoolBuffers pools_;
   std::unique_ptr<Buffer> wide_nodes_;  ///< null where programs walk the octree
+  /// What rays on the host wait for and was not copied: the wide tree, then pools beside the splats.
+  std::vector<WalkedArray> walked_;
+  std::uint64_t walked_bytes_ = 0, rays_ = 0;  ///< of all those; expected since the upload
   ClipContent clip_content_;
   bool leans_ = false;       ///< any_leans
   Look shown_;               ///< as uploaded

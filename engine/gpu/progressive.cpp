@@ -48,6 +48,7 @@ bool Tracer::advance(double wanted_ms) {
   const auto start = std::chrono::steady_clock::now();
   impl.runner.scene.show(progressive.look);
   impl.runner.bind(*progressive.accumulation);
+  impl.runner.scene.expect_rays(std::uint64_t{rows} * frame.width);
   TileDispatch tile = aim(progressive.dispatch, {0, progressive.next_row, frame.width, rows});
   tile.dispatch.frame.mean_begin = frame.sample_begin + progressive.before.samples();
   ThreadWork work = impl.runner.work(progressive.dispatch);

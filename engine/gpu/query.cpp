@@ -22,6 +22,7 @@ std::vector<RayHit> Tracer::intersect(const Look& look, std::span<const RayQuery
   runner.queue->reserve(runner.rays, most * sizeof(RayQuery));
   runner.queue->reserve(runner.hits, most * sizeof(RayHit));
   runner.bind(*runner.accumulation);
+  runner.scene.expect_rays(rays.size());
   Dispatch dispatch;
   dispatch.program = Program::rays;
   dispatch.constants = query_features(runner.scene.content(), settings);

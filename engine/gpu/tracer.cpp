@@ -75,6 +75,7 @@ Picture Tracer::Impl::start_picture(const Look& look, const View& view, const Se
                   cut_into_tiles(made.width, made.height, tile_means / means),
                   {made.width, made.height, {}, {}, {}}};
   picture.image.rgba.resize(pixels);
+  runner.scene.expect_rays(pixels * settings.samples);
   const std::size_t most_pixels = picture.tiles.front().pixels();
   runner.queue->reserve(runner.accumulation, means * most_pixels * sizeof(vec4));
   if (settings.aov) {

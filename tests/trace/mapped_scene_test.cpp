@@ -1,8 +1,9 @@
 // A scene that the host traces where its file is mapped: the bits of one in memory, little memory, and a refusal where someone makes the
-// file shorter or writes over it, whatever is being traced.
+// file shorter or writes over it, whatever is being traced. And copied into huge pages once that is worth it.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <cstring>
 #include <fstream>
 #include <numeric>
 #include <random>
@@ -10,9 +11,12 @@
 
 #include "engine/base/error.h"
 #include "engine/device/host/host_device.h"
+#include "engine/device/host/host_queue.h"
 #include "engine/file/scene_file.h"
+#include "engine/gpu/device_scene.h"
 #include "engine/scene/clip.h"
 #include "engine/scene/phong.h"
+#include "engine/scene/pool/huge_pages.h"
 #include "engine/scene/splat.h"
 #include "engine/scene/texture_factors.h"
 #include "engine/scene/wide/wide_tree.h"
@@ -98,6 +102,23 @@ std::vector<RayQuery> rays_at(std::size_t count) {
     rays.push_back(ray);
   }
   return rays;
+}
+
+/// An array where rays on the host read it, and where the scene has it.
+struct ReadArray {
+  const void* read;
+  std::span<const std::byte> owned;
+};
+
+/// All that is copied into huge pages.
+std::vector<ReadArray> walked_arrays(DeviceScene& shown, const Scene& scene) {
+  const KernelWork& work = static_cast<HostBindings&>(shown.bindings()).work();
+  return {{work.tree.nodes, std::as_bytes(std::span(scene.wide_nodes))},
+          {work.tree.splats, std::as_bytes(std::span(scene.data_pool))},
+          {work.bound[BIND_DATA_POOL], std::as_bytes(std::span(scene.data_pool))},
+          {work.bound[BIND_COLOR_POOL], std::as_bytes(std::span(scene.color_pool))},
+          {work.bound[BIND_FIELD_POOL], std::as_bytes(std::span(scene.field_pool))},
+          {work.bound[BIND_CLIP_POOL], std::as_bytes(std::span(scene.clip_pool))}};
 }
 
 std::size_t anonymous_bytes() {
@@ -266,6 +287,62 @@ TEST_F(MappedScene, BoxesThatAreWrongLeadNowhereElse) {
   for (WideNode& node : scene.wide_nodes.edit())
     for (auto& [low, high] : node.bounds) low.fill(std::nanf("")), high.fill(0.0F);
   (void)hits();
+}
+
+TEST_F(MappedScene, IsCopiedIntoHugePagesOnceRaysPayForIt) {
+  const std::unique_ptr<Queue> queue = device.make_queue();
+  const Scene scene = read_scene(path);
+  DeviceScene shown(device, *queue, {});
+  shown.upload(scene);
+  shown.show(look_of(scene));
+  shown.bind();
+  const auto expect_mapped = [&] {
+    for (const auto& [read, owned] : walked_arrays(shown, scene)) EXPECT_EQ(read, owned.data());
+  };
+  expect_mapped();
+  shown.expect_rays(20000);
+  expect_mapped();
+  shown.expect_rays(SPLATS);
+  for (int i = 0; i < 2; ++i) {
+    for (const auto& [read, owned] : walked_arrays(shown, scene)) {
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(read) % HUGE_PAGE_BYTES, 0U);
+      EXPECT_NE(read, owned.data());
+      EXPECT_EQ(std::memcmp(read, owned.data(), owned.size()), 0);
+    }
+    shown.bind();
+    shown.expect_rays(SPLATS);
+  }
+}
+
+TEST_F(MappedScene, HasTheSameBitsAndRefusalsInHugePages) {
+  const std::vector<RayHit> expected = hits_of(*large);
+  std::vector<RayQuery> many = rays;
+  RayQuery past_all = rays.front();
+  past_all.dir = -past_all.dir;
+  many.resize(SPLATS, past_all);
+  Scene scene = read_scene(path);
+  ShownTracer tracer(device);
+  tracer.upload_and_free(scene);
+  const std::size_t before = anonymous_bytes();
+  std::vector<RayHit> found = tracer.intersect(many, {});
+  EXPECT_GT(anonymous_bytes() - before, SPLATS * sizeof(uvec4));
+  for (int i = 0; i < 2; ++i, found = tracer.intersect(rays, {})) {
+    found.resize(rays.size());
+    EXPECT_EQ(different_bits(found, expected), 0U);
+  }
+  std::filesystem::resize_file(path, 5000);
+  EXPECT_THROW((void)tracer.intersect(rays, {}), Error);
+}
+
+// Neither what a small picture of a large scene would wait for nor what others may need the memory for.
+TEST(HugePages, AreForRaysAndMemoryEnough) {
+  constexpr std::uint64_t MIB = std::uint64_t{1} << 20U, GIB = MIB << 10U;
+  EXPECT_TRUE(worth_huge_pages(28 * MIB, 1000000, 8 * GIB));
+  EXPECT_FALSE(worth_huge_pages(28 * MIB, 64 * 64, 8 * GIB));
+  EXPECT_FALSE(worth_huge_pages(560 * MIB, 640 * 400 * 4, 64 * GIB));
+  EXPECT_TRUE(worth_huge_pages(560 * MIB, 1920 * 1080 * 64, 64 * GIB));
+  EXPECT_FALSE(worth_huge_pages(560 * MIB, 1920 * 1080 * 64, 4 * GIB));
+  EXPECT_FALSE(worth_huge_pages(MIB, 1920 * 1080 * 64, 8 * GIB)) << "a few pages";
 }
 
 // The tree that a file without one gets is the one that files have.
