@@ -32,6 +32,8 @@ struct PointClip {
   /// Discs of larger radius are not clipped, as what they cover was not searched so far away.
   float reach = 0.0F;
 
+  bool operator==(const PointClip&) const = default;
+
   [[nodiscard]] std::size_t lines() const {
     return dir[0] == glm::vec3(0.0F) ? 0 : (dir[1] == glm::vec3(0.0F) ? 1 : 2);
   }
@@ -48,6 +50,8 @@ struct PointEllipse {
   glm::vec3 short_axis{0.0F};  ///< unit, square to the normal
   float aspect = 1.0F;         ///< its length over its width, 1 or more
   float half_length = 0.0F;    ///< world units; 0 = a disc
+
+  bool operator==(const PointEllipse&) const = default;
 };
 
 /// Where a sensor that moved was at a time.
@@ -56,16 +60,21 @@ struct TrackPlace {
   glm::dvec3 sensor_world;
 };
 
+/// The column that numbers the points of an input, where it is asked afterwards which of them a scene leaves out. No file's column: its
+/// name has blanks.
+inline constexpr std::string_view COLUMN_INPUT_NUMBER = "number of the input's point";
+
 /// A point set. All arrays that are not empty have the same length, but for `stations` and `track`.
 struct Points {
   std::vector<glm::dvec3> position;  ///< world units
   std::vector<glm::vec3> normal;     ///< any length; empty = none given. A zero normal means "estimate me"
   /// Unit normals that light sees, where they are not those of the points' planes, else zero; empty = none
   std::vector<glm::vec3> shading;
-  std::vector<glm::vec3> color;       ///< linear rgb, 0..1; empty = none
-  std::vector<float> radius;          ///< world units; empty = none given
-  std::vector<PointClip> clip;        ///< where the surface ends; empty = nowhere
-  std::vector<PointEllipse> ellipse;  ///< beside `radius`, half their lengths; empty = all are discs
+  std::vector<glm::vec3> color;  ///< linear rgb, 0..1; empty = none
+  std::vector<float> radius;     ///< world units; empty = none given
+  std::vector<PointClip> clip;   ///< where the surface ends; empty = nowhere
+  /// Shapes of splats that are longer than wide; `radius` is half their length; empty = all are discs
+  std::vector<PointEllipse> ellipse;
   /// Display-encoded rgb of scans as stored, instead of `color`; empty = none. 1.0 is at `stored_color_most`, which 0 leaves
   /// to be judged from all files of the input: LAS has 8-bit colours in 16-bit fields.
   std::vector<glm::u16vec3> stored_color;

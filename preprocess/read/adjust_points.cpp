@@ -1,9 +1,14 @@
 #include "preprocess/read/adjust_points.h"
 
+#include "preprocess/mesh/mesh_transform.h"
+
 namespace splatray {
 namespace {
 
 void scale_heights(Points& points, double scale) {
+  const glm::dmat3 scaled(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, scale));
+  for (std::size_t i = 0; i < points.ellipse.size(); ++i)
+    transform_ellipse(scaled, points.normal[i], points.ellipse[i], points.radius[i]);
   for (glm::dvec3& position : points.position) position.z *= scale;
   for (glm::vec3& normal : points.normal) normal.z = static_cast<float>(double(normal.z) / scale);
   for (Station& station : points.stations)

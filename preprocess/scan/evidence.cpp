@@ -24,7 +24,7 @@ constexpr double FLAT =
     0.2;  // least deviation / second: half of what tells surfaces from scatter, Survey::FLAT
 constexpr double SPREAD =
     0.25;  // second deviation / first: below it places lie in one line, across which nothing was seen
-constexpr double LEAST_COSINE = 0.8;  // of the disc's normal and the plane's
+constexpr double ON_PLANE_COSINE = 0.8;  // of the disc's normal and the plane's
 constexpr double MOST_SLOPE = 0.35;   // height over the disc's plane / distance, of a neighbour that is on it
 constexpr double NEAR_SHARE = 0.75;   // of a neighbourhood that must be on it
 constexpr std::size_t SECTORS = 8, FILLED = 4;
@@ -62,7 +62,7 @@ bool is_flat(const Cloud& cloud, std::uint32_t point, std::span<const Neighbour>
   const glm::dvec3 variances = variances_of(covariance);
   if (!(variances.x < FLAT * FLAT * variances.y && variances.y > SPREAD * SPREAD * variances.z)) return false;
   const glm::dvec3 axis = least_axis_of(covariance, variances);
-  return std::abs(glm::dot(axis, glm::dvec3(cloud.normal[point]))) > LEAST_COSINE;
+  return std::abs(glm::dot(axis, glm::dvec3(cloud.normal[point]))) > ON_PLANE_COSINE;
 }
 
 /// `nearest` ascend.

@@ -105,9 +105,9 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
     const float radius = cloud.radius.empty() ? 0.0F : cloud.radius[i];
     const glm::vec3 shading = cloud.shading.empty() ? glm::vec3(0.0F) : cloud.shading[i];
     const ScanKind kind = cloud.kind.empty() ? ScanKind::surface : cloud.kind[i];
-    const float aspect = cloud.ellipse.empty() ? 1.0F : cloud.ellipse[i].aspect;
+    const PointEllipse shape = cloud.ellipse.empty() ? PointEllipse{} : cloud.ellipse[i];
     return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), sort_key(shading), p.x, p.y, p.z,
-                      color, radius, aspect, station, cell, kind);
+                      color, radius, shape.aspect, sort_key(shape.short_axis), station, cell, kind);
   };
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;
@@ -115,6 +115,17 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
     if (const auto order = std::strong_order(column.number(a), column.number(b)); order != 0)
       return order < 0;
   return false;
+}
+
+/// Whether all that is known of two points is the same, but for their numbers in the input.
+bool are_alike(const Cloud& cloud, std::size_t a, std::size_t b) {
+  const auto same = [&](const auto& values) { return values.empty() || values[a] == values[b]; };
+  const bool taken = std::apply([&](const auto&... of) { return (same(cloud.*of.second) && ...); }, TAKEN);
+  return taken && same(cloud.coord) && same(cloud.color) && same(cloud.kind) &&
+         std::all_of(cloud.columns.begin(), cloud.columns.end(), [&](const Column& column) {
+           return column.name == COLUMN_INPUT_NUMBER ||
+                  std::strong_order(column.number(a), column.number(b)) == 0;
+         });
 }
 
 /// Points' indices, ascending by Morton key of the coordinates, then by every attribute.
@@ -202,11 +213,8 @@ void keep_points(Cloud& cloud, const std::vector<std::uint32_t>& kept) {
 
 std::size_t drop_copies(Cloud& cloud) {
   const std::size_t before = cloud.size();
-  const auto is_first = [&](std::size_t i) {
-    const auto number = static_cast<std::uint32_t>(i);
-    return i == 0 || point_less(cloud, number - 1, number) || point_less(cloud, number, number - 1);
-  };
-  const std::vector<std::uint32_t> kept = numbers_where(before, is_first);
+  const std::vector<std::uint32_t> kept =
+      numbers_where(before, [&](std::size_t i) { return i == 0 || !are_alike(cloud, i - 1, i); });
   if (kept.size() < before) keep_points(cloud, kept);
   return before - cloud.size();
 }

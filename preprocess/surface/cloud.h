@@ -81,7 +81,7 @@ struct Cloud {
 /// and radii that cannot be used into "unknown" and orders the points. Adds to the counts of `stats`.
 [[nodiscard]] Cloud make_cloud(Points&& points, bool oriented, bool measured, BuildStats& stats);
 
-/// Leaves one of points that are alike in all that is known of them. How many are gone.
+/// Leaves one of points that are alike in all that is known of them but COLUMN_INPUT_NUMBER. How many are gone.
 std::size_t drop_copies(Cloud& cloud);
 
 /// Leaves the points of these ascending numbers in the cloud; its frame stays.

@@ -12,7 +12,7 @@
 namespace splatray {
 namespace {
 
-const std::string NUMBER = "number of the input's point";  // no file's column: it has blanks
+const std::string NUMBER(COLUMN_INPUT_NUMBER);
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/number_text.h"
+#include "engine/scene/clip.h"
 #include "preprocess/base/file_extension.h"
 #include "preprocess/write/point_output.h"
 
@@ -14,13 +15,13 @@ struct PointFormat {
   const char* extension;
   void (*write)(const PointTable& table, PointOutput& out);
   /// Whether it has a place for each; files without an up direction are read with z up.
-  bool has_up, has_system, has_sensors;
+  bool has_up, has_system, has_sensors, has_ellipses;
 };
 
-constexpr PointFormat WRITTEN_FORMATS[] = {{".ply", write_ply, true, true, true},
-                                           {".las", write_las, false, true, false},
-                                           {".csv", write_csv, false, false, false},
-                                           {".vtp", write_vtp, true, true, true}};
+constexpr PointFormat WRITTEN_FORMATS[] = {{".ply", write_ply, true, true, true, true},
+                                           {".las", write_las, false, true, false, false},
+                                           {".csv", write_csv, false, false, false, false},
+                                           {".vtp", write_vtp, true, true, true, true}};
 
 const PointFormat* point_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
@@ -55,6 +56,8 @@ std::string lost_by_format(const Scene& scene, const std::filesystem::path& path
     add("the up direction " + number_text(scene.up) + " (it is read with 0,0,1)");
   if (!format.has_system && !scene.crs.empty()) add("the coordinate system");
   if (!format.has_sensors && has_sensors) add("the places of scanners");
+  if (!format.has_ellipses && clip_content(scene.clip_pool).ellipses)
+    add("the ellipses of splats (they are read as discs of their length)");
   return lost.empty() ? lost : path.string() + ": its format does not hold " + lost + "; .ply and .vtp do";
 }
 

@@ -214,13 +214,16 @@ TEST(Build, TooManyObjectsIsAnError) {
 }
 
 TEST(Build, OnePointAndEqualPointsAreOneDiscOfOneUnit) {
-  for (const std::size_t copies : {1U, 1000U}) {
+  for (const auto& [copies, keep] : {std::pair(1U, false), std::pair(1000U, false), std::pair(1000U, true)}) {
     InputObject object;
     object.points.position.assign(copies, glm::dvec3(4.0e6, -2.0, 0.5));
+    BuildParams params;
+    params.keep_strays = keep;
     BuildStats stats;
-    const Scene scene = build(object, {}, 0, &stats);
-    EXPECT_EQ(scene.data_pool.size(), std::min<std::size_t>(copies, 8));
-    EXPECT_EQ(stats.radii_isolated, copies);
+    const Scene scene = build(object, params, 0, &stats);
+    EXPECT_EQ(scene.data_pool.size(), keep ? 8U : 1U) << "copies of points of a scan are none of their own";
+    EXPECT_EQ(stats.dropped_duplicates, copies - scene.data_pool.size());
+    EXPECT_EQ(stats.radii_isolated, keep ? copies : 1U);
     const Splat splat = unpack_splat(scene.data_pool[0]);
     EXPECT_LT(glm::length(scene.root.to_world(splat.center) - glm::dvec3(4.0e6, -2.0, 0.5)), 1e-5);
     EXPECT_NEAR(std::sqrt(splat.radius_squared) * scene.root.unit_world, 1.0, 2e-3);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/readers/read_error.h"
 
 namespace splatray {
@@ -25,6 +27,29 @@ TEST(AdjustPoints, HeightsAreScaledAndNormalsStaySquareToTheSurface) {
   const glm::dvec3 along = object.points.position[1] - object.points.position[0];
   EXPECT_NEAR(glm::dot(along, glm::dvec3(object.points.normal[0])), 0.0, 1e-6);
   EXPECT_EQ(object.points.stations[0].sensor_world->z, 5.0);
+}
+
+TEST(AdjustPoints, EllipsesAreStretchedWithTheHeights) {
+  const float half = std::sqrt(0.5F);
+  InputObject object;
+  object.points.position.assign(2, glm::dvec3(0.0));
+  object.points.normal.assign(2, glm::vec3(1.0F, 0.0F, 0.0F));
+  object.points.radius = {2.0F, 2.0F};
+  object.points.ellipse = {{{0.0F, 0.0F, 1.0F}, 2.0F, 2.0F}, {{0.0F, half, half}, 2.0F, 2.0F}};
+  ScanOptions options;
+  options.z_scale = 4.0;
+  adjust_points(object, options);
+  const std::vector<PointEllipse>& ellipse = object.points.ellipse;
+  EXPECT_NEAR(object.points.radius[0], 4.0F, 1e-5) << "what was across is along now";
+  EXPECT_NEAR(ellipse[0].aspect, 2.0F, 1e-5);
+  EXPECT_NEAR(std::abs(ellipse[0].short_axis.y), 1.0F, 1e-5);
+  // y^2 and z^2 of the tilted one: by its support along each axis, sqrt(sum of the squares of its half axes there).
+  const float most_z = 4.0F * std::sqrt(0.5F * (4.0F + 1.0F)), most_y = std::sqrt(0.5F * (4.0F + 1.0F));
+  const glm::vec3 narrow = ellipse[1].short_axis, wide = glm::cross(glm::vec3(1.0F, 0.0F, 0.0F), narrow);
+  const float length = ellipse[1].half_length, width = length / ellipse[1].aspect;
+  EXPECT_NEAR(std::hypot(length * wide.z, width * narrow.z), most_z, 1e-4);
+  EXPECT_NEAR(std::hypot(length * wide.y, width * narrow.y), most_y, 1e-4);
+  EXPECT_NEAR(length * width, 2.0F * 1.0F * 4.0F, 1e-4) << "the area grows by the factor";
 }
 
 TEST(AdjustPoints, TheScannersPlaceIsForThoseThatDoNotSay) {

@@ -181,16 +181,42 @@ TEST(FoundStation, IsTheOriginThatRingsRunAround) {
   EXPECT_GT(static_cast<double>(closed), 0.95 * static_cast<double>(floor));
 }
 
-TEST(FoundStation, IsNoneInWhatWasTurnedOnALathe) {
-  Points vase;
-  for (int row = 0; row < 120; ++row)
+/// A thing whose rows are 200 points round, at heights of 0.02 from -1.2 on, each as far from z as `radius_of` says.
+template <class RadiusOf>
+Points rows_of(const RadiusOf& radius_of) {
+  Points thing;
+  for (int row = 0; row <= 120; ++row)
     for (int column = 0; column < 200; ++column) {
-      const double turn = 2.0 * std::numbers::pi * column / 200.0, height = 0.02 * row - 1.0;
-      const double wide = 0.6 + 0.2 * std::sin(3.0 * height);
-      vase.position.emplace_back(wide * std::cos(turn), wide * std::sin(turn), height);
+      const double turn = 2.0 * std::numbers::pi * column / 200.0, radius = radius_of(row, column);
+      thing.position.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 0.02 * (row - 60));
     }
-  const BuiltScan built = build_scan(vase);
-  EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 0U);
+  return thing;
+}
+
+TEST(FoundStation, IsNoneInWhatWasTurnedOrMilled) {
+  const auto vase = [](int row, int) { return 0.6 + 0.2 * std::sin(0.06 * row); };
+  const auto spool = [](int row, int) { return row < 10 || row > 110 ? 1.0 : 0.5; };
+  const auto gear = [](int, int column) { return column / 10 % 2 == 0 ? 1.0 : 0.5; };
+  for (const Points& thing : {rows_of(vase), rows_of(spool), rows_of(gear)}) {
+    const BuiltScan built = build_scan(thing);
+    EXPECT_EQ(built.stats.sides_by[static_cast<std::size_t>(SideRung::sensor)], 0U);
+  }
+}
+
+TEST(FoundStation, IsTheOriginThatRingsRunAroundDespiteNoise) {
+  Points seen = spun_room();
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> angle(0.0, 5e-4), range(0.0, 0.002);  // rings are 17 mrad apart
+  for (glm::dvec3& place : seen.position) {
+    const double away = glm::length(place) + range(random);
+    const glm::dvec3 turned =
+        place + glm::length(place) * glm::dvec3(angle(random), angle(random), angle(random));
+    place = away * glm::normalize(turned);
+  }
+  const BuiltScan built = build_scan(seen);
+  ASSERT_TRUE(built.scene.stations.at(0).sensor_found_world);
+  EXPECT_LT(glm::length(*built.scene.stations[0].sensor_found_world), 1e-6);
+  EXPECT_GT(share_that_faces_origin(built), 0.99);
 }
 
 }  // namespace

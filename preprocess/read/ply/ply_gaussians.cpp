@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "preprocess/read/scan/gaussian_discs.h"
@@ -11,6 +12,8 @@
 namespace splatray {
 namespace {
 
+/// Factor of the colour in front of spherical harmonics of degree 0.
+constexpr double HARMONIC_0 = 0.28209479177387814;
 constexpr std::string_view CHUNK_ELEMENT = "chunk";
 constexpr std::uint64_t ROWS_OF_A_CHUNK = 256;
 
@@ -18,9 +21,10 @@ constexpr std::uint64_t ROWS_OF_A_CHUNK = 256;
 template <std::size_t COUNT>
 using Places = std::array<std::size_t, COUNT>;
 
-constexpr std::array<std::string_view, 14> PLAIN{"x",       "y",      "z",      "scale_0", "scale_1",
-                                                 "scale_2", "rot_0",  "rot_1",  "rot_2",   "rot_3",
-                                                 "opacity", "f_dc_0", "f_dc_1", "f_dc_2"};
+constexpr std::array<std::string_view, 13> PLAIN{"x",      "y",      "z",     "scale_0", "scale_1",
+                                                 "rot_0",  "rot_1",  "rot_2", "rot_3",   "opacity",
+                                                 "f_dc_0", "f_dc_1", "f_dc_2"};
+constexpr std::string_view THICKNESS = "scale_2";  // 2D Gaussians have none
 constexpr std::array<std::string_view, 4> PACKED{"packed_position", "packed_rotation", "packed_scale",
                                                  "packed_color"};
 constexpr std::array<std::string_view, 12> CHUNK{"min_x",       "min_y",       "min_z",       "max_x",
@@ -40,7 +44,7 @@ Places<COUNT> places_of(const PlyBody& in, const PlyElement& element,
     const int at = element.find(std::string(names[i]));
     if (at < 0 || element.properties[static_cast<std::size_t>(at)].is_list)
       in.fail("found a capture of 3D Gaussians whose element '" + element.name + "' has no property '" +
-              std::string(names[i]) + "'");
+              std::string(names[i]) + "', expected one, of numbers");
     places[i] = static_cast<std::size_t>(at);
   }
   return places;
@@ -73,11 +77,16 @@ glm::dvec3 triple(const std::vector<double>& row, const Places<COUNT>& places, s
 
 glm::dvec3 exp_of(const glm::dvec3& v) { return {std::exp(v.x), std::exp(v.y), std::exp(v.z)}; }
 
-/// As training stores it: logarithms of deviations, the logit of opacity, a quaternion with w first, harmonics.
-Gaussian plain_gaussian(const std::vector<double>& row, const Places<14>& at) {
-  return {triple(row, at, 0), exp_of(triple(row, at, 3)),
-          glm::dquat(row[at[6]], row[at[7]], row[at[8]], row[at[9]]), 1.0 / (1.0 + std::exp(-row[at[10]])),
-          0.5 + HARMONIC_0 * triple(row, at, 11)};
+/// As training stores it: logarithms of deviations, the logit of opacity, a quaternion with w first, harmonics. `thickness`: the column
+/// of the third deviation, none of flat ones.
+Gaussian plain_gaussian(const std::vector<double>& row, const Places<13>& at,
+                        std::optional<std::size_t> thickness) {
+  const double third = thickness ? std::exp(row[*thickness]) : 0.0;
+  return {triple(row, at, 0),
+          {std::exp(row[at[3]]), std::exp(row[at[4]]), third},
+          glm::dquat(row[at[5]], row[at[6]], row[at[7]], row[at[8]]),
+          1.0 / (1.0 + std::exp(-row[at[9]])),
+          0.5 + HARMONIC_0 * triple(row, at, 10)};
 }
 
 /// A field of `bits` from bit `low` on, 0..1.
@@ -152,9 +161,11 @@ std::uint64_t read_packed(PlyBody& in, const PlyElement& element, const std::vec
 }
 
 std::uint64_t read_plain(PlyBody& in, const PlyElement& element, GaussianDiscs& discs) {
-  const Places<14> at = places_of(in, element, PLAIN);
+  const Places<13> at = places_of(in, element, PLAIN);
+  std::optional<std::size_t> thickness;
+  if (has(element, THICKNESS)) thickness = places_of(in, element, std::array{THICKNESS})[0];
   return read_values(in, element,
-                     [&](const std::vector<double>& row) { discs.add(plain_gaussian(row, at)); });
+                     [&](const std::vector<double>& row) { discs.add(plain_gaussian(row, at, thickness)); });
 }
 
 }  // namespace
@@ -171,6 +182,13 @@ std::uint64_t PlyGaussians::read(PlyBody& in, const PlyElement& element) {
   if (element.name == CHUNK_ELEMENT) return read_chunks(in, element, chunks_);
   discs_.reserve(in.most_rows(element));
   return is_packed(element) ? read_packed(in, element, chunks_, discs_) : read_plain(in, element, discs_);
+}
+
+Points PlyGaussians::take(const PlyBody& in, std::string& note) {
+  Points points = discs_.take();
+  note = discs_.note();
+  if (points.size() == 0) throw_unreadable(in.path(), note + "; expected at least one disc");
+  return points;
 }
 
 }  // namespace splatray

@@ -1,4 +1,5 @@
-/// Captures of 3D Gaussians in PLY files: those of training (Kerbl et al. 2023) and the packed ones that PlayCanvas writes.
+/// Captures of 3D Gaussians in PLY files: those of training (Kerbl et al. 2023), also flat ones (2D Gaussians, Huang et al. 2024), and
+/// the packed ones of PlayCanvas (SuperSplat's "compressed PLY": 256 Gaussians a chunk, 16 bytes each).
 #pragma once
 #include <string>
 #include <vector>
@@ -25,8 +26,8 @@ class PlyGaussians {
   /// Reads an element's rows; `in` stands on the first. How many there are, which may be less than the element declares. Throws
   /// Error (input_unreadable) where properties or chunks are missing.
   std::uint64_t read(PlyBody& in, const PlyElement& element);
-  [[nodiscard]] std::string note() const { return discs_.note(); }
-  [[nodiscard]] Points points() { return discs_.points(); }
+  /// The discs, behind the last element; what became of the Gaussians goes to `note`. Throws Error (input_unreadable) where none is left.
+  [[nodiscard]] Points take(const PlyBody& in, std::string& note);
 
  private:
   std::vector<GaussianChunk> chunks_;

@@ -186,7 +186,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
   const PlyElement& vertices = vertex_element(header, path);
   std::optional<PlyGaussians> gaussians;
   if (PlyGaussians::are_in(vertices)) gaussians.emplace();
-  const bool point_set = !has_triangles(header);
+  const bool point_set = gaussians || !has_triangles(header);
   const std::vector<SplatMark> marks = marks_of(header);
   PlyBody in(bytes, header);
   Mesh mesh;
@@ -205,7 +205,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
         for (const PlyProperty& property : element.properties) attributes.push_back(property.name);
       mesh.vertices = read_ply_vertices(in, element, point_set ? &attributes : nullptr, listener.notes);
       cut.note(element, mesh.vertices.size());
-    } else if (list >= 0 && is_triangles(element)) {
+    } else if (list >= 0 && is_triangles(element) && !gaussians) {
       cut.note(element, append_faces(in, element, mesh.vertices.size(), list, mesh, skipped));
     } else if (const auto grid = range_grid_form(header, element);
                point_set && list >= 0 && grid && mesh.vertices.size() > 0 && element.name == "range_grid") {
@@ -216,7 +216,11 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
     }
   }
   in.finish();
-  if (gaussians) listener.note(path, gaussians->note()), mesh.vertices = gaussians->points();
+  if (gaussians) {
+    std::string note;
+    mesh.vertices = gaussians->take(in, note);
+    listener.note(path, note);
+  }
   cut.report(path, options.scans, listener);
   if (point_set) place_sensors(header, mesh.vertices), take_marks(marks, mesh.vertices);
   if (!skipped.empty()) {

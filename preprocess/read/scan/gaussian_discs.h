@@ -9,9 +9,6 @@
 
 namespace splatray {
 
-/// Factor of the colour in front of spherical harmonics of degree 0.
-inline constexpr double HARMONIC_0 = 0.28209479177387814;
-
 /// One Gaussian as captures store it, decoded.
 struct Gaussian {
   glm::dvec3 center_world;
@@ -22,19 +19,22 @@ struct Gaussian {
 };
 
 /// Takes Gaussians as flat discs: across the axis of the least deviation, out to where the opacity is a half, so that what hides most
-/// of what lies behind is opaque and all else is not there. Those less opaque than a half in their centre, and those whose numbers
-/// are no Gaussian, are left out.
+/// of what lies behind is opaque and all else is not there. Left out are those less opaque than a half in their centre, those whose radius
+/// is more than the diagonal of the box of all centres, and those whose numbers are no Gaussian. Discs hardly longer than wide are
+/// round, of the same area.
 class GaussianDiscs {
  public:
   void reserve(std::size_t count);
   void add(const Gaussian& one);
-  /// What became of them, a sentence.
-  [[nodiscard]] std::string note() const;
   /// Discs with normals that may be turned either way, radii and ellipses; up is -y, as the cameras of such captures mostly have it.
-  [[nodiscard]] Points points();
+  [[nodiscard]] Points take();
+  /// What became of them, a sentence; behind take().
+  [[nodiscard]] std::string note() const;
 
  private:
   Points points_;
+  std::uint64_t discs_ = 0;
+  std::uint64_t vast_ = 0;
   std::uint64_t faint_ = 0;
   std::uint64_t invalid_ = 0;
 };

@@ -27,16 +27,34 @@ struct Directions {
   std::vector<float> azimuth, elevation;  ///< radians
 };
 
+/// What a scanner sees that turns about an axis.
+class ScannerFrame {
+ public:
+  ScannerFrame(const glm::dvec3& sensor, const glm::dvec3& axis) : sensor_(sensor), axis_(axis) {
+    const glm::dvec3 side = std::abs(axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    u_ = glm::normalize(glm::cross(axis, side));
+    v_ = glm::cross(axis, u_);
+  }
+
+  /// Azimuth and elevation of a place, radians.
+  [[nodiscard]] glm::vec2 direction(const glm::vec3& place) const {
+    const glm::dvec3 to = glm::dvec3(place) - sensor_;
+    const double x = glm::dot(to, u_), y = glm::dot(to, v_);
+    return {static_cast<float>(std::atan2(y, x) + std::numbers::pi),
+            static_cast<float>(std::atan2(glm::dot(to, axis_), std::hypot(x, y)))};
+  }
+
+ private:
+  glm::dvec3 sensor_, axis_, u_, v_;
+};
+
 Directions directions_of(const Cloud& cloud, const std::vector<std::uint32_t>& points,
-                         const glm::dvec3& sensor, const glm::dvec3& axis) {
-  const glm::dvec3 side = std::abs(axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 u = glm::normalize(glm::cross(axis, side)), v = glm::cross(axis, u);
+                         const ScannerFrame& scanner) {
   Directions directions{std::vector<float>(points.size()), std::vector<float>(points.size())};
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t n) {
-    const glm::dvec3 to = glm::dvec3(cloud.coord[points[n]]) - sensor;
-    const double x = glm::dot(to, u), y = glm::dot(to, v);
-    directions.azimuth[n] = static_cast<float>(std::atan2(y, x) + std::numbers::pi);
-    directions.elevation[n] = static_cast<float>(std::atan2(glm::dot(to, axis), std::hypot(x, y)));
+    const glm::vec2 direction = scanner.direction(cloud.coord[points[n]]);
+    directions.azimuth[n] = direction.x;
+    directions.elevation[n] = direction.y;
   });
   return directions;
 }
@@ -128,17 +146,15 @@ class SweepColumns {
 };
 
 /// The median turn of steps along lines that are rings.
-float step_angle(const Directions& directions, const std::vector<std::uint32_t>& points, std::size_t size,
+float step_angle(const Cloud& cloud, const std::vector<std::uint32_t>& points, const ScannerFrame& scanner,
                  const std::vector<LinePlace>& places) {
-  std::vector<std::uint32_t> number(size, NO_CELL);
-  for (std::uint32_t n = 0; n < points.size(); ++n) number[points[n]] = n;
   std::vector<float> turns;
-  for (std::uint32_t n = 0; n < points.size(); ++n) {
-    const LinePlace& place = places[points[n]];
-    const std::uint32_t next = place.step > 0.0F ? number[place.next] : NO_CELL;
-    if (next == NO_CELL) continue;
-    const float turn = std::abs(turn_between(directions.azimuth[n], directions.azimuth[next]));
-    if (turn > std::abs(directions.elevation[next] - directions.elevation[n])) turns.push_back(turn);
+  for (const std::uint32_t i : points) {
+    if (!(places[i].step > 0.0F)) continue;
+    const glm::vec2 from = scanner.direction(cloud.coord[i]),
+                    to = scanner.direction(cloud.coord[places[i].next]);
+    const float turn = std::abs(turn_between(from.x, to.x));
+    if (turn > std::abs(to.y - from.y)) turns.push_back(turn);
   }
   return ranked(std::move(turns), 0.5);
 }
@@ -238,9 +254,10 @@ std::optional<Sweep> find_rings(const Cloud& cloud, const std::vector<std::uint3
   if (places.empty() || points.size() < FEWEST_RINGS_POINTS) return {};
   const glm::dvec3 axis = find_ring_axis(cloud, points, sensor).value_or(axis_of_lines(places));
   if (axis == glm::dvec3(0.0)) return {};
-  const Directions directions = directions_of(cloud, points, sensor, axis);
-  const float step = step_angle(directions, points, cloud.size(), places);
+  const ScannerFrame scanner(sensor, axis);
+  const float step = step_angle(cloud, points, scanner, places);
   if (!(step > 0.0F)) return {};
+  const Directions directions = directions_of(cloud, points, scanner);
   const SweepColumns columns(directions, step);
   std::vector<SweepColumns::Beside> beside(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(),

@@ -46,8 +46,8 @@ void join_lines(Cloud& cloud, const Survey& survey, bool ellipses, std::vector<L
 [[nodiscard]] glm::dvec3 axis_of_lines(const std::vector<LinePlace>& places);
 
 /// The axis, x, y or z, that a scanner at `sensor` turned about, where these points lie on its rings: from there they have few elevations,
-/// whatever their ranges. None where they do not, as with a sensor elsewhere, and where each ring has one range, as on what was turned
-/// on a lathe.
+/// and a tenth at least lie on rings of 16 and more ranges. None where they do not, as with a sensor elsewhere; and none in what was
+/// turned on a lathe, milled or stacked in rows, whose points can have few elevations, too, but have one or few ranges each.
 [[nodiscard]] std::optional<glm::dvec3> find_ring_axis(const Cloud& cloud,
                                                        const std::vector<std::uint32_t>& points,
                                                        const glm::dvec3& sensor);

@@ -9,14 +9,17 @@
 namespace splatray {
 namespace {
 
-constexpr std::size_t MOST_ASKED = 1U << 16;
-constexpr std::size_t LEAST_RINGS = 8, LEAST_ON_RING = 8;
-constexpr double STEPS_ON_RINGS = 1.0 - 1.0 / LEAST_ON_RING;  // of all steps from one elevation to the next
-constexpr double SHARP = 0.05;  // of such a step, of the mean of all: 2.1 where elevations are random
-/// Ranges on a ring that is not round: rings on a level floor, and all of what was turned on a lathe, are round.
-constexpr float UNEVEN_RANGES = 1.2F;
-constexpr std::size_t FEW =
-    10;  // a tenth: of a ring's points that may be others', of points on rings that are not round
+constexpr std::size_t MOST_ASKED = 1U << 18;  // as many as rows of a tripod's scan have enough of
+constexpr std::size_t LEAST_RINGS = 8, LEAST_ON_RING = 32;
+constexpr double STEPS_ON_RINGS =
+    1.0 - 1.0 / LEAST_ON_RING;  // share of the steps from one elevation to the next
+/// Bound of step_on_rings: random elevations have ln LEAST_ON_RING, 3.5; rings with deviations of a twentieth of their distance have 1.
+constexpr double SHARP = 1.0;
+/// Different ranges, by a thousandth, that a ring has at least which runs over things: what was turned, milled or stacked in rows has few.
+constexpr std::size_t LEAST_RANGES = 16;
+constexpr float SAME_RANGE = 1.001F;
+constexpr std::size_t LEAST_UNEVEN =
+    10;  // one of so many points lies on such rings: of a small empty room most lie on round ones
 
 /// A point as a scanner sees it.
 struct Seen {
@@ -46,25 +49,29 @@ double step_on_rings(const std::vector<Seen>& seen, double mean) {
   return steps[rank] / mean;
 }
 
-/// Whether the ranges of a ring's points differ, without the least and the greatest tenth.
-bool differ(std::span<const Seen> ring) {
+/// Whether a ring's points have many ranges.
+bool has_many_ranges(std::span<const Seen> ring) {
   std::vector<float> ranges(ring.size());
   std::transform(ring.begin(), ring.end(), ranges.begin(), [](const Seen& one) { return one.range; });
   std::sort(ranges.begin(), ranges.end());
-  return ranges[ranges.size() - 1 - ranges.size() / FEW] > UNEVEN_RANGES * ranges[ranges.size() / FEW];
+  std::size_t count = 1;
+  float last = ranges.front();
+  for (const float range : ranges)
+    if (range > SAME_RANGE * last) last = range, ++count;
+  return count >= LEAST_RANGES;
 }
 
-/// Whether these are on enough rings, some of which are not round.
+/// Whether these are on enough rings, some of which run over things.
 bool are_rings(const std::vector<Seen>& seen, double mean) {
   std::size_t rings = 0, uneven = 0;
   for (std::size_t first = 0, n = 1; n <= seen.size(); ++n) {
     if (n < seen.size() && seen[n].elevation - seen[n - 1].elevation <= mean) continue;
     const auto ring = std::span(seen).subspan(first, n - first);
     rings += ring.size() >= LEAST_ON_RING ? 1 : 0;
-    uneven += differ(ring) ? ring.size() : 0;
+    uneven += ring.size() >= LEAST_ON_RING && has_many_ranges(ring) ? ring.size() : 0;
     first = n;
   }
-  return rings >= LEAST_RINGS && FEW * uneven > seen.size();
+  return rings >= LEAST_RINGS && LEAST_UNEVEN * uneven > seen.size();
 }
 
 }  // namespace

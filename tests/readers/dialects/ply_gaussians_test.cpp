@@ -121,6 +121,49 @@ TEST(Gaussians, BecomeEllipsesOfTheScene) {
   EXPECT_EQ(scene.data_pool.size(), 400U);
 }
 
+TEST(Gaussians, SkiesAreLeftOutAndNearlyRoundOnesAreRound) {
+  const TempFolder folder;
+  const auto row = [](const std::string& centre, double first, double second, double third) {
+    return centre + " 0 0 0 0 0 0 40 " + std::to_string(std::log(first)) + " " +
+           std::to_string(std::log(second)) + " " + std::to_string(std::log(third)) + " 1 0 0 0\n";
+  };
+  const std::string rows = row("0 0 0", 0.1, 0.5, 0.4) + row("3 4 0", 0.1, 0.5, 0.2) +
+                           row("0 0 1", 0.1, 1e9, 1e8) + row("0 0 2", 1e-3, 1e60, 1e60);
+  const Input input = read_input({folder.write("a.ply", plain_head(4) + rows)}, {});
+  const Points& points = input.objects.at(0).points;
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_NEAR(points.radius.at(0), HALF_OPAQUE * std::sqrt(0.5 * 0.4), 1e-5) << "a disc of the same area";
+  EXPECT_EQ(points.ellipse.at(0).half_length, 0.0F);
+  EXPECT_NEAR(points.ellipse[1].aspect, 2.5, 1e-4);
+  EXPECT_TRUE(has_note(input, "2 are wider than all lie apart"));
+}
+
+TEST(Gaussians, FlatOnesHaveTwoScales) {
+  const TempFolder folder;
+  std::string text = plain_head(1) + plain_row("1 2 3", "40", "1 0 0 0");
+  text.erase(text.find("property float scale_2\n"), 23);
+  const std::string third = std::to_string(std::log(0.2)) + " ";
+  text.erase(text.find(third), third.size());
+  const Points points = read_input({folder.write("a.ply", text)}, {}).objects.at(0).points;
+  ASSERT_EQ(points.size(), 1U);
+  expect_axis(points.normal[0], {0, 0, 1}, 1e-6);
+  EXPECT_NEAR(points.ellipse.at(0).aspect, 4.0, 1e-4);
+}
+
+TEST(Gaussians, CrossedOnesAtOnePlaceAreNoCopies) {
+  const TempFolder folder;
+  std::string rows;
+  for (int i = 0; i < 400; ++i)
+    for (const char* turn : {"1 0 0 0", "0.70710678 0.70710678 0 0", "0.70710678 0.70710678 0 0"})
+      rows +=
+          plain_row("0 " + std::to_string(0.5 * (i % 20)) + " " + std::to_string(0.3 * (i / 20)), "40", turn);
+  BuildStats stats;
+  const Scene scene =
+      build_scene(read_input({folder.write("a.ply", plain_head(1200) + rows)}, {}), {}, 0, stats);
+  EXPECT_EQ(scene.data_pool.size(), 800U);
+  EXPECT_EQ(stats.dropped_duplicates, 400U);
+}
+
 TEST(Gaussians, LessThanTheirHeaderSaysIsReadOrRefused) {
   const TempFolder folder;
   EXPECT_NE(read_error(folder.write("a.ply", packed_file(1, 257, "")))
@@ -130,6 +173,9 @@ TEST(Gaussians, LessThanTheirHeaderSaysIsReadOrRefused) {
                                     "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
                                     "end_header\n7\n"))
                 .find("'vertex' has no property 'packed_rotation'"),
+            std::string::npos);
+  EXPECT_NE(read_error(folder.write("d.ply", plain_head(1) + plain_row("1 2 3", "-4", "1 0 0 0")))
+                .find("1 are less opaque than that in their centre"),
             std::string::npos);
   const auto cut = folder.write(
       "c.ply", plain_head(3) + plain_row("1 2 3", "40", "1 0 0 0") + plain_row("1 2 4", "40", "1 0 0 0"));
