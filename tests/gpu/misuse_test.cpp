@@ -79,14 +79,23 @@ TEST_F(Misuse, WorkThatADriverCutsShortIsDoneInSmallerPartsOrRefused) {
   ShownTracer tracer(device);
   tracer.upload(long_list(0));
   const auto expected = tracer.render(view, settings).rgba;
+  Settings one = settings;
+  one.samples = 1;
+  const auto expected_of_one = tracer.render(view, one).rgba;
   tracer.upload(long_list(10'000));  // 16 samples and their shadow rays: 480 000 iterations
   EXPECT_TRUE(tracer.render(view, settings).rgba == expected);
-  tracer.upload(long_list(200'000));  // one ray: 200 000 at least
-  EXPECT_THROW((void)tracer.render(view, settings), Error);
-  settings.samples = 1;
-  tracer.begin(view, settings);
+  tracer.upload(
+      long_list(200'000));  // one ray: 200 000 at least, which Mesa 22.3 cuts short and 25.0 does not
+  const auto expect_whole_or_refused = [](const auto& make, const auto& whole) {
+    try {
+      EXPECT_TRUE(make().rgba == whole);
+    } catch (const Error&) {
+    }
+  };
+  expect_whole_or_refused([&] { return tracer.render(view, settings); }, expected);
+  tracer.begin(view, one);
   (void)tracer.advance(10.0);
-  EXPECT_THROW((void)tracer.picture(), Error);
+  expect_whole_or_refused([&] { return tracer.picture(); }, expected_of_one);
 }
 
 class PipelineStoreTest : public DeviceTest {
