@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstring>
 #include <exception>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -37,6 +39,15 @@ void on_all_cores(std::size_t count, const Work& work) {
     take();
   }
   if (thrown) std::rethrow_exception(thrown);
+}
+
+/// Copies bytes to `target`, by all cores: where memory or file is new, most of the time goes into its pages, which they make at once.
+inline void copy_on_all_cores(std::span<const std::byte> bytes, std::byte* target) {
+  constexpr std::size_t SLICE = std::size_t{2} << 20U;  // a huge page
+  on_all_cores((bytes.size() + SLICE - 1) / SLICE, [&](std::size_t slice) {
+    const std::size_t at = slice * SLICE;
+    std::memcpy(target + at, bytes.data() + at, std::min(SLICE, bytes.size() - at));
+  });
 }
 
 }  // namespace splatray

@@ -9,19 +9,11 @@
 #include "engine/base/vector_clones.h"
 #include "engine/image/fireflies.h"
 #include "engine/image/surface_likeness.h"
+#include "shaders/display/denoise_layout.h"
 
 namespace splatray {
 namespace {
 
-constexpr int PASSES = 5;             ///< the last one's taps lie 16 pixels apart
-constexpr float BASE_LEAST = 0.05F;   ///< light of darker surfaces is that of such ones
-constexpr float NOISE_WIDTH = 2.25F;  ///< standard errors of a difference by which light may differ
-constexpr float OWN_WIDTH = 6.0F;     ///< the same in the half that is filtered, whose own outliers stay out
-/// How many times the light around a pixel may give to its surface: more would tint it by the chance of one sample.
-constexpr float EXCESS_MOST = 32.0F;
-constexpr float RIM_LIKENESS = 0.01F;   ///< less, and a neighbour is of another surface
-constexpr float RADIANCE_MOST = 1e15F;  ///< light of more, over a base colour, has a square beyond float32
-constexpr float LEAST_LIKE = 1e-6F;     ///< pixels less alike, all of them together, share no light
 constexpr float KERNEL[] = {0.375F, 0.25F, 0.0625F};  ///< B3 spline
 constexpr float SMALL_KERNEL[] = {0.5F, 0.25F};       ///< of the guide
 
@@ -74,8 +66,8 @@ SPLATRAY_VECTOR_CLONES void find_weights(const GuideRow& here, const GuideRow& t
     const float apart_0 = here_0[k] - there_0[k], apart_1 = here_1[k] - there_1[k];
     const float beyond_0 = apart_0 * apart_0 - explained, beyond_1 = apart_1 * apart_1 - explained;
     const float excess_0 = beyond_0 > 0.0F ? beyond_0 : 0.0F, excess_1 = beyond_1 > 0.0F ? beyond_1 : 0.0F;
-    const float by_other = 1.0F / (NOISE_WIDTH * NOISE_WIDTH * noise + 1e-12F);
-    const float by_own = 1.0F / (OWN_WIDTH * OWN_WIDTH * noise + 1e-12F);
+    const float by_other = 1.0F / (DENOISE_NOISE_WIDTH * DENOISE_NOISE_WIDTH * noise + 1e-12F);
+    const float by_own = 1.0F / (DENOISE_OWN_WIDTH * DENOISE_OWN_WIDTH * noise + 1e-12F);
     weight_0[k] = kernel * like[k] * decay(-(excess_1 * by_other + excess_0 * by_own));
     weight_1[k] = kernel * like[k] * decay(-(excess_0 * by_other + excess_1 * by_own));
   }
@@ -101,7 +93,8 @@ class Filter {
     Light light = taken_apart();
     const std::vector<vec4> unfiltered = joined(light);
     find_variance(light);
-    for (int pass = 0; pass < PASSES; ++pass) light = filtered(light, guide_of(light), 1 << pass);
+    for (int pass = 0; pass < int{DENOISE_PASSES}; ++pass)
+      light = filtered(light, guide_of(light), 1 << pass);
     for (Half& half : light.halves)
       for (std::size_t channel = 0; channel < 3; ++channel)
         for (std::size_t i = 0; i < light.variance.size(); ++i)
@@ -110,7 +103,9 @@ class Filter {
   }
 
  private:
-  [[nodiscard]] vec3 base_of(std::size_t i) const { return glm::max(vec3(base_[i]), vec3(BASE_LEAST)); }
+  [[nodiscard]] vec3 base_of(std::size_t i) const {
+    return glm::max(vec3(base_[i]), vec3(DENOISE_BASE_LEAST));
+  }
 
   [[nodiscard]] Light taken_apart() const {
     const std::size_t pixels = image_.rgba.size();
@@ -179,7 +174,8 @@ class Filter {
     std::vector<char> found(image_.rgba.size());
     for_surfaces([&](std::size_t first, std::size_t count) {
       around(first, count, 1, 1, [&](const Taps& taps, const float* like) {
-        for (std::size_t k = 0; k < taps.count; ++k) found[taps.center + k] |= like[k] < RIM_LIKENESS ? 1 : 0;
+        for (std::size_t k = 0; k < taps.count; ++k)
+          found[taps.center + k] |= like[k] < DENOISE_RIM_LIKENESS ? 1 : 0;
       });
     });
     return found;
@@ -231,7 +227,7 @@ class Filter {
         const float brighter =
             rim_[first + k] == 0 && square[first + k] > 0.0F ? square[first + k] / squares[k] : 0.0F;
         light.variance[first + k] = sum[k] * std::max(1.0F / weights[k], brighter);
-        limit_excess(light, first + k, EXCESS_MOST * std::sqrt(squares[k] / weights[k]));
+        limit_excess(light, first + k, DENOISE_EXCESS_MOST * std::sqrt(squares[k] / weights[k]));
       }
     });
   }
@@ -302,7 +298,7 @@ class Filter {
       for (std::size_t k = 0; k < count; ++k) {
         if (!surfaces_.is_surface(first + k)) continue;
         for (std::size_t channel = 0; channel < 3; ++channel)
-          result.excess[channel][first + k] = excess[channel][k] / (others[k] + LEAST_LIKE);
+          result.excess[channel][first + k] = excess[channel][k] / (others[k] + DENOISE_LEAST_LIKE);
         for (std::size_t half = 0; half < 2; ++half)
           for (std::size_t channel = 0; channel < 3; ++channel)
             result.halves[half].rgb[channel][first + k] = sums[half][channel][k] / weights[half][k];
@@ -349,8 +345,8 @@ void fill_holes(std::span<vec4> pixels, const PixelRows& rows) {
 
 void make_finite(Image& image, std::span<vec4> base) {
   const PixelRows rows(image.width, image.height);
-  limit(image.rgba, -RADIANCE_MOST, RADIANCE_MOST);
-  limit(image.part, -RADIANCE_MOST, RADIANCE_MOST);
+  limit(image.rgba, -DENOISE_RADIANCE_MOST, DENOISE_RADIANCE_MOST);
+  limit(image.part, -DENOISE_RADIANCE_MOST, DENOISE_RADIANCE_MOST);
   limit(base, 0.0F, 1.0F);
   fill_holes(image.rgba, rows);
   fill_holes(image.part, rows);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cassert>
 
+#include "shaders/display/denoise_layout.h"
+
 namespace splatray {
 namespace {
-
-constexpr float SPARK = 1.5F;  ///< of the brightest in the other half: brighter is chance
 
 /// The greatest of each value and its eight neighbours.
 std::vector<float> greatest_around(const std::vector<float>& values, std::size_t width) {
@@ -34,7 +34,8 @@ void limit_fireflies(Halves& halves, std::uint32_t width) {
   for (std::size_t half = 0; half < 2; ++half) {
     const std::vector<float> most = greatest_around(bright[1 - half], width);
     for (std::size_t i = 0; i < most.size(); ++i)
-      if (bright[half][i] > SPARK * most[i]) halves[half][i] *= SPARK * most[i] / bright[half][i];
+      if (bright[half][i] > DENOISE_SPARK * most[i])
+        halves[half][i] *= DENOISE_SPARK * most[i] / bright[half][i];
   }
 }
 

@@ -5,11 +5,12 @@
 #include <cstddef>
 
 #include "engine/base/all_cores.h"
+#include "shaders/display/denoise_layout.h"
 
 namespace splatray {
 
 /// Neighbouring pixels of a row that are filtered together: what they need stays in the cache.
-constexpr std::size_t PIECE = 256;
+constexpr std::size_t PIECE = DENOISE_PIECE;
 using Piece = std::array<float, PIECE>;
 
 /// Some pixels of a piece, beside each the neighbour that lies (dx, dy) from it.

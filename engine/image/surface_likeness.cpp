@@ -4,15 +4,12 @@
 #include <limits>
 
 #include "engine/base/vector_clones.h"
+#include "shaders/display/denoise_layout.h"
 
 namespace splatray {
 namespace {
 
 constexpr float DEPTH_SLACK = 1.0F;  ///< of the depth's change from pixel to pixel
-/// By how much of their common length two base colours may differ. What highlights send back does not grow with the base colour, so that
-/// light over base colour is another where that is; points' colours have noise of a fifth, which must not keep them apart.
-constexpr float BASE_WIDTH = 0.5F;
-constexpr float BASE_DARK = 0.1F;  ///< differences of darker base colours hardly count
 
 /// The lists from a pixel on.
 struct Surfaces {
@@ -43,8 +40,8 @@ SPLATRAY_VECTOR_CLONES void find_likeness(const Surfaces& here, const Surfaces& 
     const float squares = here.base_r[k] * here.base_r[k] + there.base_r[k] * there.base_r[k] +
                           here.base_g[k] * here.base_g[k] + there.base_g[k] * there.base_g[k] +
                           here.base_b[k] * here.base_b[k] + there.base_b[k] * there.base_b[k];
-    const float paint =
-        (r * r + g * g + b * b) / (BASE_WIDTH * BASE_WIDTH * (squares + BASE_DARK * BASE_DARK));
+    const float paint = (r * r + g * g + b * b) / (DENOISE_BASE_WIDTH * DENOISE_BASE_WIDTH *
+                                                   (squares + DENOISE_BASE_DARK * DENOISE_BASE_DARK));
     const float of_one = here.object[k] == there.object[k] ? 1.0F : 0.0F;
     like[k] = of_one * facing * decay(-(step < 0.0F ? -step : step) / expected - paint);
   }

@@ -18,18 +18,8 @@ layout(std430, binding = DENOISE_BIND_PLANES) buffer Planes { vec4 planes[]; };
 layout(std430, binding = DENOISE_BIND_WORDS) buffer Words { uint words[]; };
 layout(std430, binding = DENOISE_BIND_RESULT) writeonly buffer Result { vec4 result[]; };
 
-const float BASE_LEAST = 0.05f;
-const float NOISE_WIDTH = 2.25f;
-const float OWN_WIDTH = 6.0f;
-const float EXCESS_MOST = 32.0f;
-const float RIM_LIKENESS = 0.01f;
-const float RADIANCE_MOST = 1e15f;
-const float LEAST_LIKE = 1e-6f;
 const float KERNEL[3] = float[](0.375f, 0.25f, 0.0625f);
 const float SMALL_KERNEL[2] = float[](0.5f, 0.25f);
-const float SPARK = 1.5f;
-const float BASE_WIDTH = 0.5f;
-const float BASE_DARK = 0.1f;
 
 /// e^x, the same polynomial as there.
 float decay(float x) {
@@ -76,7 +66,7 @@ vec4 limited(uint input_of, uint i) {
   if (input_of == OF_PART) value = part[i];
   if (input_of == OF_BASE) value = base[i];
   if (!is_finite(value)) return value;
-  float most = input_of == OF_BASE ? 1.0f : RADIANCE_MOST;
+  float most = input_of == OF_BASE ? 1.0f : DENOISE_RADIANCE_MOST;
   return vec4(clamp(value.xyz, vec3(input_of == OF_BASE ? 0.0f : -most), vec3(most)), value.w);
 }
 
@@ -156,11 +146,11 @@ float likeness(uint i, uint tap, ivec2 apart) {
       own.w * float(abs(apart.x)) + down * float(abs(apart.y)) + 1e-4f * abs(here.w) + 1.17549435e-38f;
   vec3 paint = own.xyz - other;
   float squares = dot(own.xyz, own.xyz) + dot(other, other);
-  float painted = dot(paint, paint) / (BASE_WIDTH * BASE_WIDTH * (squares + BASE_DARK * BASE_DARK));
+  float painted = dot(paint, paint) / (DENOISE_BASE_WIDTH * DENOISE_BASE_WIDTH * (squares + DENOISE_BASE_DARK * DENOISE_BASE_DARK));
   return facing * decay(-abs(here.w - there.w) / expected - painted);
 }
 
-vec3 base_of(uint i) { return max(plane(DENOISE_PLANE_BASE, i).xyz, vec3(BASE_LEAST)); }
+vec3 base_of(uint i) { return max(plane(DENOISE_PLANE_BASE, i).xyz, vec3(DENOISE_BASE_LEAST)); }
 
 /// Light of the first half, and of the second, as they were found.
 vec3 found_half(uint i, uint which) {
@@ -178,7 +168,7 @@ vec3 without_spark(uint i, uint which) {
       if (is_inside(beside)) most = max(most, luminance(found_half(at(beside), 1u - which)));
     }
   float bright = luminance(own);
-  return bright > SPARK * most ? own * (SPARK * most / bright) : own;
+  return bright > DENOISE_SPARK * most ? own * (DENOISE_SPARK * most / bright) : own;
 }
 
 bool find_rim(uint i) {
@@ -188,7 +178,7 @@ bool find_rim(uint i) {
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
       ivec2 beside = place + ivec2(dx, dy);
-      if (is_inside(beside) && likeness(i, at(beside), ivec2(dx, dy)) < RIM_LIKENESS) return true;
+      if (is_inside(beside) && likeness(i, at(beside), ivec2(dx, dy)) < DENOISE_RIM_LIKENESS) return true;
     }
   return false;
 }
@@ -239,7 +229,7 @@ void find_variance(uint i) {
     float square = 0.25f * bright * bright;
     float brighter = !is_rim(i) && square > 0.0f ? square / squares : 0.0f;
     variance = sum * max(1.0f / weights, brighter);
-    float most = EXCESS_MOST * sqrt(squares / weights);
+    float most = DENOISE_EXCESS_MOST * sqrt(squares / weights);
     float much = luminance(excess);
     if (much > most) excess *= most / much;
   }
@@ -274,8 +264,8 @@ vec2 light_weights(vec3 here, vec3 there) {
   float noise = here.z + there.z;
   vec2 apart = here.xy - there.xy;
   vec2 excess = max(apart * apart - explained, vec2(0.0f));
-  float by_other = 1.0f / (NOISE_WIDTH * NOISE_WIDTH * noise + 1e-12f);
-  float by_own = 1.0f / (OWN_WIDTH * OWN_WIDTH * noise + 1e-12f);
+  float by_other = 1.0f / (DENOISE_NOISE_WIDTH * DENOISE_NOISE_WIDTH * noise + 1e-12f);
+  float by_own = 1.0f / (DENOISE_OWN_WIDTH * DENOISE_OWN_WIDTH * noise + 1e-12f);
   vec2 beyond = excess.yx * by_other + excess * by_own;
   return vec2(decay(-beyond.x), decay(-beyond.y));
 }
@@ -311,7 +301,7 @@ void filter_pass(uint i) {
       }
     first = vec4(first_sum.xyz / weights.x, first_sum.w / (weights.x * weights.x));
     second.xyz = second_sum / weights.y;
-    excess.xyz = excess_sum / (others + LEAST_LIKE);
+    excess.xyz = excess_sum / (others + DENOISE_LEAST_LIKE);
   }
   set_plane(params.filtered, i, first);
   set_plane(params.filtered + 1u, i, second);

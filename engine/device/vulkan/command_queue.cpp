@@ -13,15 +13,6 @@ namespace {
 
 constexpr VkDeviceSize STAGING_BYTES = VkDeviceSize{64} << 20U;
 
-/// Where memory or file is new, most of the time goes into its pages, which all cores make at once.
-void copy(std::span<const std::byte> bytes, std::byte* target) {
-  constexpr std::size_t SLICE = std::size_t{1} << 20U;
-  on_all_cores((bytes.size() + SLICE - 1) / SLICE, [&](std::size_t slice) {
-    const std::size_t at = slice * SLICE;
-    std::memcpy(target + at, bytes.data() + at, std::min(SLICE, bytes.size() - at));
-  });
-}
-
 std::uint32_t timestamp_bits(const VulkanDevice& vulkan) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(vulkan.physical_device, &count, nullptr);
@@ -205,7 +196,7 @@ void CommandQueue::upload(VulkanBuffer& buffer, std::span<const std::byte> bytes
   if (bytes.empty()) return;
   finish();
   if (buffer.mapped() != nullptr)
-    copy(bytes, buffer.mapped() + begin);
+    copy_on_all_cores(bytes, buffer.mapped() + begin);
   else
     upload_staged(buffer, bytes, begin);
 }
@@ -220,7 +211,7 @@ void CommandQueue::upload_staged(VulkanBuffer& buffer, std::span<const std::byte
     const std::size_t half = i % 2, from = i * PIECE, at = half * PIECE;
     const std::span<const std::byte> piece = bytes.subspan(from, std::min(PIECE, bytes.size() - from));
     if (i >= 2) copies_[half].wait();
-    copy(piece, passed.mapped() + at);
+    copy_on_all_cores(piece, passed.mapped() + at);
     copies_[half].submit(queue_, [&](VkCommandBuffer commands) {
       const VkBufferCopy region{at, begin + from, piece.size()};
       vkCmdCopyBuffer(commands, passed.get(), buffer.get(), 1, &region);

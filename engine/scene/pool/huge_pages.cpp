@@ -2,9 +2,6 @@
 
 #include <sys/mman.h>
 
-#include <algorithm>
-#include <cstring>
-
 #include "engine/base/all_cores.h"
 
 namespace splatray {
@@ -31,10 +28,7 @@ std::shared_ptr<std::byte> huge_pages(std::uint64_t bytes) {
 std::shared_ptr<const std::byte> copy_in_huge_pages(std::span<const std::byte> bytes) {
   const std::shared_ptr<std::byte> copy = huge_pages(whole_huge_pages(bytes.size()));
   if (copy == nullptr) return nullptr;
-  on_all_cores(whole_huge_pages(bytes.size()) / HUGE_PAGE_BYTES, [&](std::size_t page) {
-    const std::uint64_t begin = page * HUGE_PAGE_BYTES;
-    std::memcpy(copy.get() + begin, bytes.data() + begin, std::min(HUGE_PAGE_BYTES, bytes.size() - begin));
-  });
+  copy_on_all_cores(bytes, copy.get());
   return copy;
 }
 
