@@ -1,5 +1,6 @@
 /// Pictures as a screen takes them, on a device that draws windows.
 #pragma once
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -30,10 +31,15 @@ class PictureRing {
   [[nodiscard]] std::shared_ptr<DevicePicture> take(std::uint64_t bytes);
 
  private:
+  struct Place {
+    DevicePicture picture;
+    std::atomic<bool> taken = false;
+  };
+
   const VulkanDevice& vulkan_;
   const VkBufferUsageFlags usage_;
   const Residence residence_;
-  std::vector<std::shared_ptr<DevicePicture>> pictures_;
+  std::vector<std::shared_ptr<Place>> places_;
 };
 
 }  // namespace splatray

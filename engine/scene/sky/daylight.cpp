@@ -96,7 +96,7 @@ glm::dvec3 sun_irradiance(const Daylight& day) {
   const auto [node, on] = between(elevation_root(day) * double(SUN_NODES - 1), SUN_NODES);
   glm::dvec3 xyz;
   for (std::size_t channel = 0; channel < CHANNELS; ++channel) {
-    const auto light = [&](std::size_t turbidity) {
+    const auto light = [channel, mass, node = node, on = on](std::size_t turbidity) {
       const std::size_t at = (channel * TURBIDITIES + turbidity) * SUN_NODES + node;
       return TOP * std::exp(-mass * std::lerp(double(SUN_DEPTH[at]), double(SUN_DEPTH[at + 1]), on));
     };
