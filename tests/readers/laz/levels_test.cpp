@@ -240,8 +240,8 @@ TEST_F(WrittenLevels, HaveMeansForNodesThatAreNotRead) {
         const glm::dvec3 place = found.position[i] - levels.low;
         std::vector<glm::dvec3> points;
         std::copy_if(of_cell->second.begin(), of_cell->second.end(), std::back_inserter(points),
-                     [&](const glm::dvec3& point) {
-                       return numbers.size() == 1 || glm::ivec3(point / part_m) == glm::ivec3(place / part_m);
+                     [&, alone = numbers.size() == 1](const glm::dvec3& point) {
+                       return alone || glm::ivec3(point / part_m) == glm::ivec3(place / part_m);
                      });
         ASSERT_EQ(count.number(i), static_cast<double>(points.size()));
         const glm::dvec3 mean =
