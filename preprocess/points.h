@@ -83,6 +83,8 @@ struct Points {
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< row * columns + column in the station's grid; empty = no grids
+  /// How many points each is the mean of, as only levels say; 0 = it is a point; empty = all are
+  std::vector<std::uint32_t> mean_of;
   /// Where points with COLUMN_TIME were measured from, by time; empty = unknown
   std::vector<TrackPlace> track;
   std::string crs;               ///< Scene::crs

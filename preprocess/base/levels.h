@@ -9,7 +9,7 @@
 
 namespace splatray {
 
-/// The column of means of points that says how many each is of; 0: it is a point.
+/// The column that shows Points::mean_of, where the file has no attribute of this name.
 inline constexpr const char* COLUMN_POINT_COUNT = "PointCount";
 
 /// A cube with some of the points that lie in it; its children have others, which are nearer to each other.

@@ -25,6 +25,7 @@ inline const std::tuple POINT_ARRAYS{PointArray<glm::dvec3>{&Points::position, {
                                      PointArray<glm::u16vec3>{&Points::stored_color, glm::u16vec3(0xFFFF)},
                                      PointArray<std::uint16_t>{&Points::station, 0},
                                      PointArray<std::uint32_t>{&Points::grid_cell, NO_CELL},
+                                     PointArray<std::uint32_t>{&Points::mean_of, 0},
                                      PointArray<std::uint32_t>{&Points::field_words, FIELD_FLAT},
                                      PointArray<std::uint32_t>{&Points::clip_words, CLIP_NONE}};
 

@@ -68,7 +68,7 @@ class Averager {
  public:
   Averager(std::span<const unsigned char> records, const TileSchema& schema)
       : schema_(schema),
-        means_schema_(schema.find(TILE_COUNT) != nullptr ? schema : tile_means_schema(schema)),
+        means_schema_(schema.is_of_means ? schema : tile_means_schema(schema)),
         records_(records) {}
 
   [[nodiscard]] std::vector<InCell> by_cell(const LevelLattice& lattice, unsigned level) const {
@@ -102,7 +102,7 @@ class Averager {
     store(normal_, length < LEAST_NORMAL ? glm::dvec3(0.0) : sums.normal / (length * sums.count), record);
     if (intensity_ != nullptr) intensity_->store(sums.intensity / sums.count, record);
     if (class_ != nullptr) class_->store(most_frequent(sums.classes), record);
-    means_schema_.find(TILE_COUNT)->store(sums.count, record);
+    means_schema_.count()->store(sums.count, record);
   }
 
  private:
@@ -204,7 +204,7 @@ class Averager {
   const TileField* const intensity_ = schema_.find(TILE_INTENSITY);
   const TileField* const class_ = schema_.find(TILE_CLASS);
   const TileField* const withheld_ = schema_.find(TILE_WITHHELD);
-  const TileField* const count_ = schema_.find(TILE_COUNT);
+  const TileField* const count_ = schema_.count();
 };
 
 /// Whether surfaces end, meet or change their colour in a cell, whose parts then have means of their own: it is not flat, or motley, and most

@@ -1,7 +1,10 @@
 #include "preprocess/levels/point_batches.h"
 
+#include <algorithm>
+
 #include "engine/base/crs.h"
 #include "engine/base/error.h"
+#include "engine/base/number_text.h"
 #include "engine/file/file_roles.h"
 #include "preprocess/read/formats.h"
 #include "preprocess/read/scan/input_files.h"
@@ -29,6 +32,21 @@ ScanFile read_whole(const std::filesystem::path& path, const ReadOptions& option
   file.counts.stored = mesh.vertices.size();
   file.points = std::move(mesh.vertices);
   return file;
+}
+
+/// What readers give of points that levels have no place for, for people; empty where that is nothing.
+std::string lost_by_levels(const Points& points) {
+  std::string lost;
+  const auto add = [&lost](const std::string& what) { lost += (lost.empty() ? "" : ", ") + what; };
+  if (std::any_of(points.radius.begin(), points.radius.end(), [](float radius) { return radius > 0.0F; }))
+    add("radii");
+  if (std::any_of(points.ellipse.begin(), points.ellipse.end(),
+                  [](const PointEllipse& one) { return one.half_length > 0.0F; }))
+    add("ellipses");
+  if (!points.field_words.empty() || !points.clip_words.empty()) add("normal fields and clip lines");
+  if (points.up && *points.up != glm::dvec3(0.0, 0.0, 1.0))
+    add("up direction " + number_text(*points.up) + " (it is read with 0,0,1)");
+  return lost;
 }
 
 }  // namespace
@@ -75,6 +93,13 @@ void PointBatches::require_one_system(const std::filesystem::path& path, const s
   if (crs_.empty()) crs_ = crs;
 }
 
+void PointBatches::note_lost(const std::filesystem::path& path, const Points& points) {
+  const std::string lost = lost_by_levels(points);
+  std::string note = path.string() + ": levels do not hold the " + lost + " of its points; a .soct does";
+  if (!lost.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
+    notes_.push_back(std::move(note));
+}
+
 Points PointBatches::read(std::size_t i) {
   const Batch& batch = batches_[i];
   const std::filesystem::path& path = files_[batch.file];
@@ -82,12 +107,15 @@ Points PointBatches::read(std::size_t i) {
   const ReadListener listener{notes_, options_.progress};
   if (is_las(path)) {
     open(batch.file);
-    return las_->read(batch.part, counts_, listener);
+    Points points = las_->read(batch.part, counts_, listener);
+    note_lost(path, points);
+    return points;
   }
   ScanFile file = read_whole(path, options_, listener);
   require_one_system(path, file.points.crs, file.in_degrees.value_or(false));
   remove_no_data(path, file.points, file.counts, listener);
   counts_ += file.counts;
+  note_lost(path, file.points);
   return std::move(file.points);
 }
 

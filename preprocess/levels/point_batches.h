@@ -27,7 +27,7 @@ class PointBatches {
   [[nodiscard]] const glm::dvec3& origin_world() const { return origin_world_; }
   /// The points of batch i < size().
   [[nodiscard]] Points read(std::size_t i);
-  /// What the last pass over all batches left out, and what was odd.
+  /// What the last pass over all batches left out, and what was odd, or is known of points and kept in no levels.
   [[nodiscard]] const ScanCounts& counts() const { return counts_; }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
@@ -38,6 +38,8 @@ class PointBatches {
 
   void open(std::size_t file);
   void add_las(std::size_t file);
+  /// Notes, once a file, what levels do not hold of it.
+  void note_lost(const std::filesystem::path& path, const Points& points);
   void require_one_system(const std::filesystem::path& path, const std::string& crs, bool in_degrees);
 
   std::vector<std::filesystem::path> files_;

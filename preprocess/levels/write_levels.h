@@ -33,8 +33,9 @@ struct LevelsMade {
 [[nodiscard]] bool is_levels_output(const std::filesystem::path& path);
 
 /// Writes the points of scans as they are, with all that LAS and EPT have names for, as levels: `ept.json` with its folders beside it.
-/// Where the scanners stood is kept, grids are not. Takes, beside one batch (point_batches.h), memory for some four million points a
-/// thread, unless more than that lie in a millionth of the scan's places. What was interrupted or killed goes on where it was when it is
+/// Where the scanners stood is kept, grids are not; nor are radii, ellipses, normal fields, clip lines and an up direction, which a note says.
+/// Takes, beside one batch (point_batches.h), memory for some four million points a thread, unless more than that lie in a millionth of the
+/// scan's places. What was interrupted or killed goes on where it was when it is
 /// called again with the same inputs and options, and gives the same bytes. Throws Error (usage) where the folder holds an ept.json or
 /// the making of another, (input_unreadable) as readers do, (failed) where a file cannot be written, (interrupted) as options.progress
 /// says, called with the stages "counting", "dividing", "building" and "joining".

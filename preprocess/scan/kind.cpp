@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "engine/scene/splat.h"
-#include "preprocess/base/levels.h"
 #include "preprocess/base/parallel.h"
 #include "preprocess/base/select.h"
 #include "preprocess/base/unit_or_zero.h"
@@ -99,7 +98,6 @@ std::vector<ScanKind> find_kinds(const Cloud& cloud, const Survey& survey) {
 
 void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up, float share) {
   std::vector<float> ring(cloud.size());
-  const Column* const counts = find_column(cloud.columns, COLUMN_POINT_COUNT);
   std::vector<glm::vec3> around(cloud.size());  // sums of the places around each point
   tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
     const auto point = static_cast<std::uint32_t>(i);
@@ -123,8 +121,8 @@ void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up
     cloud.radius_most[i] = std::min(cloud.radius_most[i], BESIDE_SCATTER * usual);
     if (cloud.on_surface(i)) return;
     cloud.radius[i] = share * std::min(ring[i], MOST_OVER_USUAL * usual);
-    if (counts != nullptr && cloud.kind[i] == ScanKind::scatter && counts->number(i) > 1.0)
-      show_as_many(cloud, i, static_cast<float>(counts->number(i)));
+    if (!cloud.mean_of.empty() && cloud.kind[i] == ScanKind::scatter && cloud.mean_of[i] > 1)
+      show_as_many(cloud, i, static_cast<float>(cloud.mean_of[i]));
     const auto scanner = cloud.sensor_of(i);
     const glm::dvec3 normal =
         unit_or_zero(scanner ? *scanner - glm::dvec3(cloud.coord[i]) : UPWARDS * up - unit_or_zero(inwards));

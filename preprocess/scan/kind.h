@@ -18,7 +18,7 @@ namespace splatray {
 /// Gives points that are of no surface small round discs: `share` of the distance to the 6th place, at most twice what is usual
 /// around them, that face their scanner, which is known to have seen them, or, where its place is not known, lie across the density's
 /// gradient (minus the sum of the offsets to the places around and to theirs) turned towards `up` (unit), so that a crown has a form
-/// and is lit from above. The mean of several points (COLUMN_POINT_COUNT) covers as much as their discs, and is darker, as they shade each
+/// and is lit from above. The mean of several points (Points::mean_of) covers as much as their discs, and is darker, as they shade each
 /// other. Other points' radii are left unknown; those next to such
 /// points will be at most the usual distance (Cloud::radius_most), so that no disc of a surface covers what is none.
 void make_scatter_discs(Cloud& cloud, const Survey& survey, const glm::dvec3& up, float share);

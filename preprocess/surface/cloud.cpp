@@ -21,16 +21,13 @@ namespace splatray {
 namespace {
 
 /// The arrays that a cloud takes of its points as they are.
-constexpr std::tuple TAKEN{std::pair{&Points::position, &Cloud::position},
-                           std::pair{&Points::normal, &Cloud::normal},
-                           std::pair{&Points::shading, &Cloud::shading},
-                           std::pair{&Points::station, &Cloud::station},
-                           std::pair{&Points::grid_cell, &Cloud::grid_cell},
-                           std::pair{&Points::radius, &Cloud::radius},
-                           std::pair{&Points::clip, &Cloud::clip},
-                           std::pair{&Points::ellipse, &Cloud::ellipse},
-                           std::pair{&Points::field_words, &Cloud::field_words},
-                           std::pair{&Points::clip_words, &Cloud::clip_words}};
+constexpr std::tuple TAKEN{
+    std::pair{&Points::position, &Cloud::position},    std::pair{&Points::normal, &Cloud::normal},
+    std::pair{&Points::shading, &Cloud::shading},      std::pair{&Points::station, &Cloud::station},
+    std::pair{&Points::grid_cell, &Cloud::grid_cell},  std::pair{&Points::mean_of, &Cloud::mean_of},
+    std::pair{&Points::radius, &Cloud::radius},        std::pair{&Points::clip, &Cloud::clip},
+    std::pair{&Points::ellipse, &Cloud::ellipse},      std::pair{&Points::field_words, &Cloud::field_words},
+    std::pair{&Points::clip_words, &Cloud::clip_words}};
 
 std::vector<std::uint32_t> usable_points(const Points& points) {
   return numbers_where(points.size(), [&](std::size_t i) { return is_usable_position(points.position[i]); });
@@ -102,12 +99,13 @@ bool point_less(const Cloud& cloud, std::uint32_t a, std::uint32_t b) {
     const std::uint32_t color = cloud.color.empty() ? 0U : cloud.color[i];
     const std::uint16_t station = cloud.station.empty() ? std::uint16_t{0} : cloud.station[i];
     const std::uint32_t cell = cloud.grid_cell.empty() ? NO_CELL : cloud.grid_cell[i];
+    const std::uint32_t count = cloud.mean_of.empty() ? 0U : cloud.mean_of[i];
     const float radius = cloud.radius.empty() ? 0.0F : cloud.radius[i];
     const glm::vec3 shading = cloud.shading.empty() ? glm::vec3(0.0F) : cloud.shading[i];
     const ScanKind kind = cloud.kind.empty() ? ScanKind::surface : cloud.kind[i];
     const PointEllipse shape = cloud.ellipse.empty() ? PointEllipse{} : cloud.ellipse[i];
     return std::tuple(sort_key(cloud.coord[i]), sort_key(cloud.normal[i]), sort_key(shading), p.x, p.y, p.z,
-                      color, radius, shape.aspect, sort_key(shape.short_axis), station, cell, kind);
+                      color, radius, shape.aspect, sort_key(shape.short_axis), station, cell, count, kind);
   };
   const auto key_a = key(a), key_b = key(b);
   if (key_a != key_b) return key_a < key_b;

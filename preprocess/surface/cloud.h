@@ -39,6 +39,7 @@ struct Cloud {
   std::vector<Station> stations;         ///< where the points were measured from; empty = not known
   std::vector<std::uint16_t> station;    ///< indices into `stations`; empty = all points are of the first
   std::vector<std::uint32_t> grid_cell;  ///< Points::grid_cell
+  std::vector<std::uint32_t> mean_of;    ///< Points::mean_of
   std::vector<TrackPlace> track;         ///< Points::track
   std::optional<RootTransform> lattice;  ///< Points::lattice, with the words of such points
   std::vector<std::uint32_t> field_words, clip_words;

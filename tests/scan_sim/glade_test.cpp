@@ -68,17 +68,14 @@ TEST(ScanKinds, LeavesFaceTheScannerThatSawThem) {
   EXPECT_GT(leaves, Glade::LEAVES * 9 / 10);
 }
 
-/// Of each number: the radius and the light that a glade's splats have, of all kinds the means of so many points by `count_of`.
-std::map<std::size_t, std::pair<double, double>> discs_of_means(
-    const std::function<int(std::size_t)>& count_of) {
+/// Of each number: the radius and the light that splats of a glade have of which `change` changes the points.
+std::map<std::size_t, std::pair<double, double>> discs_of(const std::function<void(Points&)>& change) {
   Input input;
   input.up = glm::dvec3(0.0, 0.0, 1.0);
   input.objects.push_back(glade_with_wire().object);
   Points& points = input.objects[0].points;
   points.color.assign(points.size(), glm::vec3(0.6F));
-  std::vector<double> counts;
-  for (std::size_t i = 0; i < points.size(); ++i) counts.push_back(count_of(i));
-  points.columns.push_back({COLUMN_POINT_COUNT, counts});
+  change(points);
   BuildStats stats;
   const Scene scene = build_scene(std::move(input), {}, 0, stats);
   const Column& number = *find_column(scene.columns, POINT_NUMBER);
@@ -91,8 +88,11 @@ std::map<std::size_t, std::pair<double, double>> discs_of_means(
 
 TEST(ScanKinds, MeansOfLeavesCoverWhatTheirPointsDoAndAreDarker) {
   const auto is_leaf = [](std::size_t i) { return i >= Glade::GROUND && i < Glade::GROUND + Glade::LEAVES; };
-  const auto points = discs_of_means([](std::size_t) { return 0; });
-  const auto means = discs_of_means([](std::size_t i) { return i % 3 == 0 ? 64 : i % 3 == 1 ? 1 : 0; });
+  const auto points = discs_of([](Points&) {});
+  const auto means = discs_of([](Points& changed) {
+    for (std::size_t i = 0; i < changed.size(); ++i)
+      changed.mean_of.push_back(i % 3 == 0 ? 64 : i % 3 == 1 ? 1 : 0);
+  });
   ASSERT_EQ(points.size(), means.size());
   std::size_t leaves = 0, others = 0;
   for (const auto& [i, point] : points) {
@@ -108,6 +108,15 @@ TEST(ScanKinds, MeansOfLeavesCoverWhatTheirPointsDoAndAreDarker) {
   }
   EXPECT_GT(leaves, Glade::LEAVES * 3 / 10);
   EXPECT_GT(others, Glade::GROUND * 9 / 10);
+}
+
+TEST(ScanKinds, AttributesOfAFileAreNoCountsOfMeans) {
+  const auto of = [](const char* name) {
+    return discs_of([&](Points& points) {
+      points.columns.push_back({name, std::vector<double>(points.size(), 64.0)});
+    });
+  };
+  EXPECT_EQ(of(COLUMN_POINT_COUNT), of("counts"));
 }
 
 TEST(ScanKinds, GroundLeavesAndWiresAreDistinguished) {

@@ -207,9 +207,7 @@ ScanFile read_binary_tile(const TileFile& file, const Head& head, const StandIns
   const std::uint64_t stored = records.size() / of_file.record_bytes;
   if (stand_ins != nullptr && !file.is_means) remove_replaced(*stand_ins, file, of_file, records);
   ScanFile read;
-  ScanOptions scans = options.scans;
-  if (file.is_means) scans.attributes.emplace_back(TILE_COUNT);
-  read.points = points_of_records(records, of_file, scans, read.counts);
+  read.points = points_of_records(records, of_file, options.scans, read.counts);
   read.counts.stored = stored;
   return read;
 }

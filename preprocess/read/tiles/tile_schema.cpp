@@ -96,12 +96,15 @@ std::vector<Column> empty_columns(const TileSchema& schema, const std::vector<st
                                   std::vector<const TileField*>& fields) {
   std::vector<Column> columns;
   const auto add = [&](std::string_view column, const TileField* field) {
-    if (field == nullptr || std::find(fields.begin(), fields.end(), field) != fields.end()) return;
+    if (field == nullptr || std::find(fields.begin(), fields.end(), field) != fields.end() ||
+        find_column(columns, column) != nullptr)
+      return;
     columns.push_back({std::string(column), empty_values(*field)});
     fields.push_back(field);
   };
   for (const KnownColumn& known : KNOWN_COLUMNS) add(known.column, schema.find(known.field));
   for (const std::string& name : asked) add(name, schema.find(name));
+  add(COLUMN_POINT_COUNT, schema.count());
   return columns;
 }
 
@@ -173,7 +176,8 @@ glm::dvec3 tile_values(const TileFields& fields, const unsigned char* record) {
 }
 
 TileSchema tile_means_schema(TileSchema schema) {
-  schema.add({.name = TILE_COUNT, .bytes = 4});
+  schema.add({.name = COLUMN_POINT_COUNT, .bytes = 4});
+  schema.is_of_means = true;
   return schema;
 }
 
@@ -310,6 +314,7 @@ Points points_of_records(std::span<const unsigned char> records, const TileSchem
     }
     if (normal[0] != nullptr) points.normal.emplace_back(glm::vec3(tile_values(normal, record)));
     if (station != nullptr) points.station.push_back(narrowed<std::uint16_t>(station->value(record)));
+    if (schema.is_of_means) points.mean_of.push_back(narrowed<std::uint32_t>(schema.count()->value(record)));
     for (std::size_t c = 0; c < fields.size(); ++c)
       edit_values(points.columns[c], [&](auto& list) {
         using Number = typename std::decay_t<decltype(list)>::value_type;

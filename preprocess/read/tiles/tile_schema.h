@@ -20,8 +20,6 @@ inline constexpr std::array<const char*, 3> TILE_PLACE{"X", "Y", "Z"}, TILE_COLO
 inline constexpr const char* TILE_INTENSITY = "Intensity";
 inline constexpr const char* TILE_CLASS = "Classification";
 inline constexpr const char* TILE_WITHHELD = "Withheld";
-/// How many points a mean of points is of.
-inline constexpr const char* TILE_COUNT = COLUMN_POINT_COUNT;
 
 /// One number of a record: value = scale * number + offset.
 struct TileField {
@@ -41,11 +39,14 @@ struct TileField {
 struct TileSchema {
   std::vector<TileField> fields;
   std::size_t record_bytes = 0;
+  bool is_of_means = false;  ///< as tile_means_schema made it
 
   /// Appends a field behind the others.
   void add(TileField field);
   /// nullptr where there is none of this name.
   [[nodiscard]] const TileField* find(std::string_view name) const;
+  /// How many points a mean is of, whatever fields of points are called; nullptr of records of points.
+  [[nodiscard]] const TileField* count() const { return is_of_means ? &fields.back() : nullptr; }
   /// A record's position.
   [[nodiscard]] glm::dvec3 position(const unsigned char* record) const;
 };
@@ -55,7 +56,7 @@ using TileFields = std::array<const TileField*, 3>;
 [[nodiscard]] TileFields tile_fields(const TileSchema& schema, const std::array<const char*, 3>& names);
 [[nodiscard]] glm::dvec3 tile_values(const TileFields& fields, const unsigned char* record);
 
-/// The schema of means of such records: these and TILE_COUNT behind them.
+/// The schema of means of such records of points: these and a count behind them.
 [[nodiscard]] TileSchema tile_means_schema(TileSchema schema);
 
 /// Whether a class is one of noise, whose points are left out (LAS 1.4, 7 and 18).
@@ -78,7 +79,8 @@ void append_records(const Points& points, const TileSchema& schema, std::size_t 
                     std::vector<unsigned char>& records);
 
 /// The points of whole records, with those other fields that `options.attributes` names. Points of the classes of noise (7, 18) and
-/// withheld ones are left out, and counted, unless options keep them. Points::station is what the field "Station" says.
+/// withheld ones are left out, and counted, unless options keep them. Points::station is what the field "Station" says, Points::mean_of the
+/// count of means, which have the column COLUMN_POINT_COUNT, too.
 [[nodiscard]] Points points_of_records(std::span<const unsigned char> records, const TileSchema& schema,
                                        const ScanOptions& options, ScanCounts& counts);
 

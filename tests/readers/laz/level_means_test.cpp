@@ -47,10 +47,10 @@ TEST(MeansOfPoints, AreOfLightAndOfTheMostFrequentClass) {
   EXPECT_EQ(value(0, "NormalZ"), 0.0) << "sides that cancel have no normal";
   EXPECT_EQ(value(0, TILE_CLASS), 2.0);
   EXPECT_EQ(value(0, "ReturnNumber"), 2.0);
-  EXPECT_EQ(value(0, TILE_COUNT), 3.0);
+  EXPECT_EQ(value(0, COLUMN_POINT_COUNT), 3.0);
   EXPECT_EQ(value(1, TILE_CLASS), 7.0);
   EXPECT_EQ(value(2, "NormalX"), 1.0);
-  EXPECT_EQ(value(2, TILE_COUNT), 1.0);
+  EXPECT_EQ(value(2, COLUMN_POINT_COUNT), 1.0);
   EXPECT_EQ(means_of(means, with_counts), means) << "means of single means are these";
 }
 

@@ -214,7 +214,7 @@ TEST_F(WrittenLevels, HaveMeansForNodesThatAreNotRead) {
         cells[{at.node, cell.x, cell.y, cell.z}].push_back(position - levels.low);
     }
     const Points found = read(ept("levels"), options);
-    const Column& count = *find_column(found.columns, TILE_COUNT);
+    const Column& count = *find_column(found.columns, COLUMN_POINT_COUNT);
     std::map<std::tuple<std::uint32_t, int, int, int>, std::vector<std::uint32_t>> means;
     for (std::uint32_t i = 0; i < found.size(); ++i) {
       const Deepest at = deepest(levels, is_chosen, found.position[i]);
