@@ -7,6 +7,7 @@
 #include "preprocess/scan/components.h"
 #include "preprocess/scan/occupancy.h"
 #include "preprocess/scan/sides.h"
+#include "preprocess/surface/normals.h"
 
 namespace splatray {
 namespace {
@@ -20,6 +21,7 @@ constexpr double RAY_START = 2.2;    // of a ray above its point, in cells: beyo
 constexpr double ROOM_SHARE = 0.15;  // of the points in planes that all others are on one side of: a room
 constexpr float ONE_PLANE_COSINE = 0.99F;  // cosine of normals of one such plane
 constexpr std::uint64_t LEAST_VOTES = 8;
+constexpr double GROUND_RISE = 0.7;  // cosine of 45 degrees: more level than upright
 
 /// How much two neighbours look like no one surface, 0..1: by the angle of their normals, and of the step between them to
 /// both planes.
@@ -204,13 +206,15 @@ SideRoom room_beside(const PointRays& rays, const Occupancy& space, std::uint32_
   return side;
 }
 
-/// For each point the room in front of its normal against that behind: 1, -1, or 0 where both are the same or it has no vote.
+/// For each point the room in front of its normal against that behind: 1, -1, or 0 where both are the same or it has no vote. In what is
+/// lower than wide and no room, such as a town with its walls, level surfaces that see out both above and below face up.
 std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, const glm::dvec3& up,
                                     const Stage& stage) {
   const Occupancy space(cloud, cell_edge(survey));
   const CloseLayers layers(cloud, space.edge());
   const bool in_room = is_room(cloud, survey, up);
   const double beyond = in_room ? 0.0 : 4.0;  // more than any way through the cloud
+  const std::optional<glm::dvec3> sky = in_room ? std::nullopt : sheet_axis(cloud, up);
   const std::size_t stride = cloud.size() / MOST_VOTERS + 1;
   std::vector<std::int8_t> votes(cloud.size());
   parallel_each(stage, cloud.size() / stride, [&](std::size_t n) {
@@ -224,7 +228,10 @@ std::vector<std::int8_t> cast_votes(const Cloud& cloud, const Survey& survey, co
     // on their other sides.
     if ((in_room || behind.sees_out) && layers.has(i, 1.0)) front.room = 0.0;
     if ((in_room || front.sees_out) && layers.has(i, -1.0)) behind.room = 0.0;
-    const double room = front.room - behind.room;
+    // Ground among walls and trees finds more room below, where nothing was to be scanned, than above.
+    const double rise = sky ? glm::dot(glm::dvec3(cloud.normal[i]), *sky) : 0.0;
+    const bool open = std::abs(rise) > GROUND_RISE && front.sees_out && behind.sees_out;
+    const double room = open ? rise : front.room - behind.room;
     votes[i] = static_cast<std::int8_t>(room > 0.0 ? 1 : room < 0.0 ? -1 : 0);
   });
   return votes;
@@ -272,12 +279,13 @@ double built_share(const Cloud& cloud, const glm::dvec3& axis) {
   return static_cast<double>(built) / static_cast<double>(asked);
 }
 
-/// Whether much of the cloud lies in planes that all but few points are on one side of, there is a floor among these, and the rest is built
-/// as they are: a bust whose base and crown are flat is round between them.
+/// Whether much of the cloud lies in planes that all but few points are on one side of, there are a floor and others among these, and the
+/// rest is built as they are: a bust whose base and crown are flat is round between them.
 bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
   constexpr std::size_t PLANES = 512, POINTS = 2000;
   constexpr double FLOOR_SHARE =
       0.03;  // of the planes' squared normals, of those that look up: noise leaves 0.01
+  constexpr double BESIDE_SHARE = 0.2;  // of walls and ceilings: the flat ground of a town is no floor
   constexpr double AS_PLANES = 0.5,
                    UPRIGHT = 0.3;  // rooms have 0.65 and more, a cave 0.39; a bust 0.38, 0.26
   const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
@@ -302,15 +310,17 @@ bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) 
   const auto count = static_cast<double>(planes) -
                      static_cast<double>(std::count(inwards.begin(), inwards.end(), std::int8_t{0}));
   if (!(count > ROOM_SHARE * static_cast<double>(planes))) return false;
-  double floor = 0.0, built = 0.0;
+  double floor = 0.0, built = 0.0, beside = 0.0;
   for (std::size_t p = 0; p < planes; ++p) {
     if (inwards[p] == 0) continue;
     const glm::dvec3 normal(cloud.normal[p * cloud.size() / planes]);
     const double along = inwards[p] * glm::dot(normal, up);
     floor += along > 0.0 ? along * along : 0.0;
+    beside += along < GROUND_RISE ? 1.0 : 0.0;
     built += built_share(cloud, normal);
   }
-  return floor > FLOOR_SHARE * count && (built > AS_PLANES * count || built_share(cloud, up) > UPRIGHT);
+  return floor > FLOOR_SHARE * count && beside > BESIDE_SHARE * count &&
+         (built > AS_PLANES * count || built_share(cloud, up) > UPRIGHT);
 }
 
 /// The share of the free cells that are enclosed: is_room has the rule.

@@ -172,6 +172,29 @@ TEST(RoomSides, ACourtyardIsSeenFromWithin) {
   EXPECT_GT(right_sides(seen), 0.97);
 }
 
+/// Of a town more than half lies on upright walls, so that it is no open sheet, its ground has more room below than above, and bounds all
+/// as a floor does.
+TEST(RoomSides, ATownsGroundIsSeenFromAbove) {
+  const auto shift = [](double x, double y) {
+    return glm::dvec3(std::sin(x + y), std::cos(2.0 * x - y), 0.0);
+  };
+  SeenPoints seen;
+  seen.step = 0.3;
+  seen.add({0, 0, 0}, {60, 0, 0}, {0, 60, 0}, [&](const glm::dvec3& p) {
+    const double x = 12.0 * std::floor(p.x / 12.0), y = 12.0 * std::floor(p.y / 12.0);
+    const glm::dvec3 from_middle = p - glm::dvec3(x + 6.0, y + 6.0, 0.0) - shift(x, y);
+    return std::abs(from_middle.x) < 4.0 && std::abs(from_middle.y) < 3.0;
+  });
+  for (double x = 0.0; x < 60.0; x += 12.0)
+    for (double y = 0.0; y < 60.0; y += 12.0) {
+      const glm::dvec3 low = glm::dvec3(x + 2.0, y + 3.0, 0.0) + shift(x, y);
+      const double height = 7.0 + std::fmod(0.7 * x + 0.3 * y, 5.0);
+      seen.add_walls(low, low + glm::dvec3(8.0, 6.0, height), /*out=*/true);
+      seen.add(low + glm::dvec3(0.0, 0.0, height), {8, 0, 0}, {0, 6, 0});
+    }
+  EXPECT_GT(right_sides(seen), 0.97);
+}
+
 /// A second room lies beyond each outer wall of the first, so that hardly a plane bounds all.
 TEST(RoomSides, RoomsBehindDoorsAreRooms) {
   SPLATRAY_NIGHTLY();
