@@ -59,6 +59,18 @@ void visit_all(const FrameParams& frame, const BundleVisitor& visit) {
   });
 }
 
+/// Calls visit(begin, count) for each bundle of a list, on all threads. Returns the wall time in milliseconds.
+template <class Visit>
+double visit_list(std::size_t size, const Visit& visit) {
+  const std::size_t bundles = (size + Peer::BUNDLE - 1) / Peer::BUNDLE;
+  const auto start = std::chrono::steady_clock::now();
+  tbb::parallel_for(std::size_t{0}, bundles, [&](std::size_t bundle) {
+    const std::size_t begin = bundle * Peer::BUNDLE;
+    visit(begin, std::min(Peer::BUNDLE, size - begin));
+  });
+  return milliseconds_since(start);
+}
+
 }  // namespace
 
 double visit_bundles(const FrameParams& frame, unsigned threads, const BundleVisitor& visit) {
@@ -83,14 +95,15 @@ double trace_frame(const Peer& peer, const FrameParams& frame, unsigned threads,
 }
 
 double trace_rays(const Peer& peer, std::span<const RayQuery> rays, std::span<RayHit> hits) {
-  const std::size_t bundles = (rays.size() + Peer::BUNDLE - 1) / Peer::BUNDLE;
-  const auto start = std::chrono::steady_clock::now();
-  tbb::parallel_for(std::size_t{0}, bundles, [&](std::size_t bundle) {
-    const std::size_t begin = bundle * Peer::BUNDLE;
-    const std::size_t count = std::min(Peer::BUNDLE, rays.size() - begin);
+  return visit_list(rays.size(), [&](std::size_t begin, std::size_t count) {
     peer.trace(rays.subspan(begin, count), hits.subspan(begin, count));
   });
-  return milliseconds_since(start);
+}
+
+double occlude_rays(const Peer& peer, std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) {
+  return visit_list(rays.size(), [&](std::size_t begin, std::size_t count) {
+    peer.occluded(rays.subspan(begin, count), blocked.subspan(begin, count));
+  });
 }
 
 std::vector<RayHit> intersect(const Peer& peer, std::span<const RayQuery> rays) {

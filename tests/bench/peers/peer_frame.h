@@ -23,7 +23,9 @@ double trace_frame(const Peer& peer, const FrameParams& frame, unsigned threads,
 
 /// Hits of arbitrary rays, on all threads, into as many `hits`. Returns the wall time in milliseconds.
 double trace_rays(const Peer& peer, std::span<const RayQuery> rays, std::span<RayHit> hits);
-/// Likewise, without the time.
+/// Whether anything lies on arbitrary rays, on all threads: 1 or 0, as many. Returns the wall time in milliseconds.
+double occlude_rays(const Peer& peer, std::span<const RayQuery> rays, std::span<std::uint8_t> blocked);
+/// As trace_rays, without the time.
 [[nodiscard]] std::vector<RayHit> intersect(const Peer& peer, std::span<const RayQuery> rays);
 
 }  // namespace splatray::testing

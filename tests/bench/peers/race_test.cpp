@@ -8,7 +8,9 @@
 #include "tests/bench/measure/race.h"
 #include "tests/bench/measure/splatray_racer.h"
 #include "tests/bench/peers/peer_embree_discs.h"
+#include "tests/bench/peers/peer_frame.h"
 #include "tests/bench/peers/peer_racer.h"
+#include "tests/bench/peers/race_rays.h"
 #include "tests/trace/scenes.h"
 
 namespace splatray::testing {
@@ -64,6 +66,40 @@ TEST(Race, OtherSplatsAreNoticed) {
   SmallRace small;
   for (std::size_t i = 0; i < small.discs.size(); i += 20) small.discs.list[i].radius *= 0.5F;
   EXPECT_THROW(static_cast<void>(small.run()), Error);
+}
+
+// Any-hit rays of splatray and Embree must say the same, and each kind must have rays, those that leave the sphere none that turn back.
+TEST(Race, AnyHitRaysOfBothAgree) {
+  const SmallRace small;
+  const VulkanDevice device;
+  ShownTracer tracer(device);
+  tracer.upload(small.scene);
+  const View view{framing_camera(small.scene, 1.0), 64, 64};
+  std::vector<RayQuery> primary;
+  visit_bundles(make_frame_params(small.scene, view, {}), 1,
+                [&](std::span<const RayQuery> rays, std::span<const std::size_t>) {
+                  primary.insert(primary.end(), rays.begin(), rays.end());
+                });
+  const EmbreeDiscs peer(small.discs, Settings{});
+  std::vector<std::string> kinds;
+  for (const RaceRays& rays : race_rays(small.scene, primary, tracer.intersect(primary, {}))) {
+    kinds.push_back(rays.kind);
+    if (rays.samples > 0) continue;
+    EXPECT_GT(rays.list.size(), 500U) << rays.kind;
+    for (const RayQuery& ray : rays.list)
+      ASSERT_TRUE(ray.from_object == NO_OBJECT || glm::dot(ray.dir, ray.from_normal) > 0.0F) << rays.kind;
+    if (rays.kind != "occluded") continue;
+    Settings any;
+    any.blend = BLEND_ANY;
+    const std::vector<RayHit> hits = tracer.intersect(rays.list, any);
+    std::vector<std::uint8_t> blocked(hits.size());
+    occlude_rays(peer, rays.list, blocked);
+    std::size_t unlike = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      unlike += (hits[i].object != NO_OBJECT) != (blocked[i] != 0) ? 1 : 0;
+    EXPECT_LE(1e6 * double(unlike) / double(hits.size()), MOST_UNLIKE_PPM);
+  }
+  EXPECT_EQ(kinds, (std::vector<std::string>{"frame", "four", "mirrored", "random", "shadow", "occluded"}));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@ import itertools
 import json
 import math
 import pathlib
-import statistics
 
 import scale_plot
 from report import machine_lines, picture
@@ -37,9 +36,8 @@ NOTES = """
 - Times are medians over rounds in which splatray and one peer trace one frame each in turn; a ratio is that of the two in
   the same rounds. splatray's are those of the dispatches and include shading, Embree's are wall times of tracing alone on
   all threads. Shadow rays stop at any hit in both.
-- Models: "wall" is the whole call, with shading and read-back.
 - Embree's shadow and mirrored rays start 0.1 median radii off the surface; splatray's know the sheet that they leave.
-  Embree's rays are traced in bundles of eight (of models: see the table), declared incoherent in the random class.
+  Embree's rays are traced in bundles of eight, declared incoherent in the random class; race.md has it at its best.
 - Errors are measured in the same run: of primary rays against the exact sphere's picture, of random rays against the
   exact sphere, of mirrored rays by further paths of 16 bounces (a bounce is wrong that misses or ends more than 2 median
   radii off), of shadow rays by those that are blocked, as truly none is. "Unlike" are answers that differ from splatray's
@@ -186,43 +184,6 @@ def coverage_parts(records):
     return ["## Frames by coverage\n", table(head, rows)]
 
 
-def median(values):
-    return statistics.median(values) if values else math.nan
-
-
-def settings_text(record):
-    words = {"width": "rtcIntersect{}", "leaf_size": "{} discs", "quality": "{} quality"}
-    return ", ".join(words[key].format(value) for key, value in record["settings"].items() if key in words)
-
-
-def best_of(records, method):
-    """A method's record of least median time."""
-    return min((r for r in records if r["method"] == method), key=lambda r: median(r["ms"]))
-
-
-def models_parts(records):
-    """Each model: splatray, and Embree's best settings; then every setting's median and range."""
-    parts = ["## Models, side by side\n"]
-    for model in dict.fromkeys(record["case"] for record in records):
-        runs = [record for record in records if record["case"] == model]
-        own = {r["method"]: r for r in runs if not r["method"].startswith("embree")}
-        parts.append(f"### {model}, {splats_text(runs[0]['splats'])} splats, {100 * runs[0]['coverage']:.0f} % of the pixels hit\n")
-        rows = []
-        for run in runs:
-            peer = run["method"].startswith("embree")
-            against = own[run["method"].split()[-1]]
-            best = "best" if peer and run is best_of(runs, run["method"]) else ""
-            ratios = [mine / its for mine, its in zip(against["ms"], run["ms"])]
-            wall = [mine / its for mine, its in zip(against["wall_ms"], run["wall_ms"])]
-            spread = f"{number(median(run['ms']))} ({number(min(run['ms']))} to {number(max(run['ms']))})"
-            shares = [f"×{number(median(values), 2)}" if peer else "–" for values in (ratios, wall)]
-            rows.append((run["method"], settings_text(run), spread, number(median(run["wall_ms"])), *shares, best,
-                         number(run["unlike_ppm"])))
-        head = ["method", "settings", "ms (all runs)", "wall, ms", "splatray / it", "wall times", "", "unlike splatray, ppm"]
-        parts.append(table(head, rows))
-    return parts
-
-
 STAGES = {
     "load_program": "load program",
     "device": "device",
@@ -302,13 +263,9 @@ def main():
     startup = json.loads(path.read_text()) if path.exists() else []
     machines = [line for records in (rays, features, coverage) if records for line in machine_lines(records)]
     machines += [machine_line(record, "start of programs") for record in startup if "commit" in record]
-    path = options.folder / "scale_models.json"
-    models = json.loads(path.read_text()) if path.exists() else []
-    machines += [machine_line(record, "models") for record in models if "device" in record]
     parts = ["# Scale\n", "\n".join(dict.fromkeys(machines)) + "\n", f"```sh\n{options.commands}\n```\n"]
     parts += ["## Targets\n", targets_table(targets(coverage, startup))]
     parts += rays_parts(rays, options.folder) if rays else []
-    parts += models_parts(models) if models else []
     parts += features_parts(features) if features else []
     parts += coverage_parts(coverage) if coverage else []
     parts += startup_parts(startup) if startup else []

@@ -26,6 +26,7 @@ parser.add_argument("--edge", type=int, default=200, help="pixels of a picture's
 parser.add_argument("--samples", type=int, default=64)
 parser.add_argument("--splats", type=int, default=150000)
 parser.add_argument("--store", help="file to keep Mitsuba's means in (JSON)")
+parser.add_argument("--record", help="file to keep the table in (JSON)")
 parser.add_argument("--variant", default="scalar_rgb", help="of Mitsuba; llvm_ad_rgb is faster, and needs LLVM 16 to 19")
 OPTIONS = parser.parse_args()
 mi.set_variant(OPTIONS.variant)
@@ -152,7 +153,7 @@ def splatray_pictures(command, folder):
         stats = json.load(open(f"{folder}/stats.json", encoding="utf-8"))
         seconds.append(stats["times_ms"]["trace"] / 1000.0)
         pictures.append(np.array(mi.Bitmap(f"{folder}/picture.exr"))[..., :3].mean(-1))
-    return np.array(pictures, float), min(seconds)
+    return np.array(pictures, float), min(seconds), stats["commit"]
 
 
 def in_mitsuba(room):
@@ -244,6 +245,27 @@ def balls():
     return room
 
 
+def windows():
+    """A room that the sky alone lights, through two windows."""
+    room = Room((3.4, 1.6, 3.4), (-1.0, 1.1, -2.0), 60)
+    grey = (0.7, 0.7, 0.7)
+    (x, y, z), (u, v, w) = (-4, 0, -4), (8, 3, 8)
+    room.quads(
+        [
+            ((x, y, z), (0, 0, w), (u, 0, 0)),
+            ((x, y + v, z), (u, 0, 0), (0, 0, w)),
+            ((x, y, z), (0, v, 0), (0, 0, w)),
+            ((x + u, y, z), (0, 0, w), (0, v, 0)),
+            ((x, y, z + w), (0, v, 0), (u, 0, 0)),
+        ],
+        grey,
+    )
+    wall = [(-4, 4, 0, 0.9), (-4, 4, 2.3, 3), (-4, -3, 0.9, 2.3), (-1, 1, 0.9, 2.3), (3, 4, 0.9, 2.3)]
+    room.quads([((left, low, z), (right - left, 0, 0), (0, high - low, 0)) for left, right, low, high in wall], grey)
+    room.sky = sunny_sky()
+    return room
+
+
 def dragon(model):
     vertices, faces = read_model(model)
     room = Room((2.5, 1.8, 4.0), (0, 0.7, 0), 35)
@@ -260,6 +282,8 @@ def main():
         "64 panels": panels,
         "256 balls": balls,
     }
+    if not OPTIONS.store:
+        scenes["room with windows"] = windows
     if OPTIONS.data and not OPTIONS.store:
         scenes["dragon"] = lambda: dragon(f"{OPTIONS.data}/models/dragon.ply")
     if OPTIONS.store:
@@ -269,6 +293,7 @@ def main():
         with open(OPTIONS.store, "w", encoding="utf-8") as file:
             json.dump(about | {"scenes": kept}, file)
         return
+    records = []
     print("| scene | light, of Mitsuba's | noise | Mitsuba's | seconds | Mitsuba's | time to 2 %, of Mitsuba's |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
     for name, make in scenes.items():
@@ -277,13 +302,17 @@ def main():
         place = f"{OPTIONS.folder}/{name.replace(' ', '_').replace(',', '')}"
         os.makedirs(place, exist_ok=True)
         room = make()
-        ours, our_seconds = splatray_pictures(in_splatray(room, place), place)
+        ours, our_seconds, commit = splatray_pictures(in_splatray(room, place), place)
         theirs, their_seconds = mitsuba_pictures(in_mitsuba(room))
         mi.Bitmap(np.concatenate([ours[0], theirs[0]], 1).astype(np.float32)).write(f"{place}/both.exr")
         (noise, light), (their_noise, their_light) = noise_of(ours), noise_of(theirs)
         ratio = our_seconds * noise**2 / (their_seconds * their_noise**2)
+        records.append({"scene": name, "light": light / their_light, "noise": [noise, their_noise], "seconds": [our_seconds, their_seconds], "ratio": ratio, "commit": commit})
         columns = (name, f"{light / their_light:.4f}", f"{noise:.4f}", f"{their_noise:.4f}", f"{our_seconds:.2f}", f"{their_seconds:.2f}", f"{ratio:.2f}")
         print("| " + " | ".join(columns) + " |", flush=True)
+    if OPTIONS.record:
+        with open(OPTIONS.record, "w", encoding="utf-8") as file:
+            json.dump(records, file)
 
 
 if __name__ == "__main__":
