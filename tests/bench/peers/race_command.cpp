@@ -42,8 +42,8 @@ struct Entry {
   Json record;
   bool peer = false;
   std::function<Times()> run;
-  std::function<std::vector<float>()>
-      answers;  ///< of each ray: its depth, or 0 where only a hit is asked for; +inf on a miss
+  /// Of each ray: its depth, or 0 where only a hit is asked for; +inf on a miss.
+  std::function<std::vector<float>()> answers;
 };
 
 /// What the entries of a model share.
