@@ -1,5 +1,5 @@
 """neon_test.py PROGRAMS FOLDER: pictures and hits of `--device cpu` on ARM, by NEON under QEMU, beside those of all vectors of this processor:
-the same bits, but for light on ARM, where the C library's powers and sines are others: within LIGHT_STEP. The engine is built by Debian's compiler for arm64, which is unpacked in FOLDER with QEMU where it is not installed. Exit code 77
+the same bits, but for light on ARM, where the C library's acosf and atan2f are others: within LIGHT_STEP. The engine is built by Debian's compiler for arm64, which is unpacked in FOLDER with QEMU where it is not installed. Exit code 77
 where neither can be had."""
 
 import array
