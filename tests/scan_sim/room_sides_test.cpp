@@ -172,8 +172,8 @@ TEST(RoomSides, ACourtyardIsSeenFromWithin) {
   EXPECT_GT(right_sides(seen), 0.97);
 }
 
-/// Of a town more than half lies on upright walls, so that it is no open sheet, its ground has more room below than above, and bounds all
-/// as a floor does.
+/// More than half of a town lies on upright walls, so that it is no open sheet; its ground has more room below than above, and bounds all as
+/// a floor does.
 TEST(RoomSides, ATownsGroundIsSeenFromAbove) {
   const auto shift = [](double x, double y) {
     return glm::dvec3(std::sin(x + y), std::cos(2.0 * x - y), 0.0);

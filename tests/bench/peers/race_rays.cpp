@@ -47,16 +47,17 @@ std::vector<RaceRays> race_rays(const Scene& scene, const std::vector<RayQuery>&
   const vec3 ahead = primary[primary.size() / 2].dir;
   const vec3 left = glm::normalize(glm::cross(vec3(0.0F, 1.0F, 0.0F), ahead));
   const vec3 to_light = glm::normalize(vec3(0.0F, 1.0F, 0.0F) + left - ahead);
+  const std::vector<RayQuery> random = random_rays(scene, primary.size());
   std::vector<RaceRays> all;
   all.push_back({.kind = "frame", .samples = 1});
   all.push_back({.kind = "four", .samples = 4});
   all.push_back(
       {.kind = "mirrored", .list = rays_from(primary, hits, [](const RayQuery& ray) { return ray.dir; })});
-  all.push_back({.kind = "random", .list = random_rays(scene, primary.size()), .coherent = false});
+  all.push_back({.kind = "random", .list = random, .coherent = false});
   all.push_back({.kind = "shadow",
                  .list = rays_from(primary, hits, [&](const RayQuery&) { return to_light; }),
                  .any = true});
-  all.push_back({.kind = "occluded", .list = all[3].list, .any = true, .coherent = false});
+  all.push_back({.kind = "occluded", .list = random, .any = true, .coherent = false});
   return all;
 }
 

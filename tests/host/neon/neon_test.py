@@ -34,19 +34,10 @@ def run(*command, **options):
 
 def unpack(folder):
     """Debian's packages in a folder of their own."""
-    lists = folder / "lists"
-    (lists / "partial").mkdir(parents=True, exist_ok=True)
-    (folder / "sources.list").write_text("deb http://deb.debian.org/debian bookworm main\n")
-    apt = ["apt-get", "-q", "-o", f"Dir::Etc::sourcelist={folder / 'sources.list'}", "-o", "Dir::Etc::sourceparts=-",
-           "-o", f"Dir::State::lists={lists}", "-o", "APT::Sandbox::User=root"]
     try:
-        run(*apt, "update")
-        run(*apt, "download", *PACKAGES, cwd=folder)
-    except (OSError, subprocess.CalledProcessError) as failure:
+        run(SOURCE / "tests" / "install" / "unpack_packages", "bookworm", folder, *PACKAGES)
+    except subprocess.CalledProcessError as failure:
         skip(f"Debian's packages cannot be had: {failure}")
-    for package in folder.glob("*.deb"):
-        run("dpkg", "-x", package, folder / "root")
-        package.unlink()
 
 
 def tools(folder):
