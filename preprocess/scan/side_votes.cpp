@@ -279,13 +279,14 @@ double built_share(const Cloud& cloud, const glm::dvec3& axis) {
   return static_cast<double>(built) / static_cast<double>(asked);
 }
 
-/// Whether much of the cloud lies in planes that all but few points are on one side of, there are a floor and others among these, and the
-/// rest is built as they are: a bust whose base and crown are flat is round between them.
+/// Whether much of the cloud lies in planes that all but few points are on one side of, there is a floor among these, and the rest is built
+/// as they are: a bust whose base and crown are flat is round between them. In what is lower than wide there are others beside the floor,
+/// which the flat ground of a town is not.
 bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) {
   constexpr std::size_t PLANES = 512, POINTS = 2000;
   constexpr double FLOOR_SHARE =
       0.03;  // of the planes' squared normals, of those that look up: noise leaves 0.01
-  constexpr double BESIDE_SHARE = 0.2;  // of walls and ceilings: the flat ground of a town is no floor
+  constexpr double BESIDE_SHARE = 0.2;  // of walls and ceilings, of what is lower than wide
   constexpr double AS_PLANES = 0.5,
                    UPRIGHT = 0.3;  // rooms have 0.65 and more, a cave 0.39; a bust 0.38, 0.26
   const std::size_t planes = std::min(PLANES, cloud.size()), points = std::min(POINTS, cloud.size());
@@ -319,7 +320,8 @@ bool is_bounded(const Cloud& cloud, const Survey& survey, const glm::dvec3& up) 
     beside += along < GROUND_RISE ? 1.0 : 0.0;
     built += built_share(cloud, normal);
   }
-  return floor > FLOOR_SHARE * count && beside > BESIDE_SHARE * count &&
+  const bool walled = beside > BESIDE_SHARE * count || !sheet_axis(cloud, up);
+  return floor > FLOOR_SHARE * count && walled &&
          (built > AS_PLANES * count || built_share(cloud, up) > UPRIGHT);
 }
 
