@@ -80,8 +80,8 @@ def table_text(rows):
     return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in rows)
 
 
-def report(before, after, changes, everything=False):
-    """The table for people, and what got worse by name."""
+def report(before, after, changes, everything=False, only=""):
+    """The table for people, and what got worse by name; `only` is in the names of the cases that were to be measured."""
     shown = [change for change in changes if everything or change.worse or change.better]
     lines = [f"before: {before['commit']}; after: {after['commit']}, {after['device']['name']}"]
     if shown:
@@ -90,6 +90,6 @@ def report(before, after, changes, everything=False):
     better = sum(change.better for change in changes)
     lines.append(f"{len(changes)} figures compared: {len(worse)} worse, {better} better")
     lines += [f"not measured: {part}, {case}" for part, cases in before["parts"].items() if part in after["parts"]
-              for case in cases if case not in after["parts"][part]]
+              for case in cases if only in case and case not in after["parts"][part]]
     lines += [f"worse: {change.part}, {change.case}: {change.figure} {number(change.before)} -> {number(change.after)}" for change in worse]
     return "\n".join(lines)

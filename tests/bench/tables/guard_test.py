@@ -58,6 +58,7 @@ class Guard(unittest.TestCase):
         before, after = table({"wrong": 1.0}), table({"wrong": 1.0})
         before["parts"]["models"]["dragon"] = {"wrong": 1.0}
         self.assertIn("not measured: models, dragon", report(before, after, compare(before, after)))
+        self.assertNotIn("not measured", report(before, after, compare(before, after), only="bunny"))
 
 
 if __name__ == "__main__":
