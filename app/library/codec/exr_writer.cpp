@@ -74,6 +74,16 @@ Bytes chunk_of(Bytes plain) {
   return made.empty() || made.size() == plain.size() ? std::move(plain) : made;
 }
 
+/// A rectangle of pixels by its first and last ones.
+exr_attr_box2i_t box_of(std::int32_t x, std::int32_t y, std::int32_t width, std::int32_t height) {
+  exr_attr_box2i_t box{};
+  box.min.x = x;
+  box.min.y = y;
+  box.max.x = x + width - 1;
+  box.max.y = y + height - 1;
+  return box;
+}
+
 /// A file that OpenEXR writes into memory.
 class ExrFile {
  public:
@@ -89,13 +99,11 @@ class ExrFile {
   ExrFile& operator=(const ExrFile&) = delete;
 
   void write_header(const PictureHeader& header) {
-    const exr_attr_box2i_t data{{header.x, header.y},
-                                {header.x + header.width - 1, header.y + header.height - 1}};
+    const exr_attr_box2i_t data = box_of(header.x, header.y, header.width, header.height);
     const bool whole = header.full_width == 0;
-    const exr_attr_box2i_t display{
-        {0, 0},
-        {(whole ? header.width : header.full_width) - 1, (whole ? header.height : header.full_height) - 1}};
-    const exr_attr_v2f_t middle{0.0F, 0.0F};
+    const exr_attr_box2i_t display =
+        box_of(0, 0, whole ? header.width : header.full_width, whole ? header.height : header.full_height);
+    const exr_attr_v2f_t middle{};
     demand(exr_add_part(file_, nullptr, EXR_STORAGE_SCANLINE, &part_));
     demand(exr_initialize_required_attr(file_, part_, &display, &data, 1.0F, &middle, 1.0F,
                                         EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
