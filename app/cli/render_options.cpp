@@ -43,6 +43,11 @@ bool changes_picture(const std::vector<FieldText>& values) {
   });
 }
 
+bool names(const std::vector<FieldText>& values, const char* name) {
+  return std::any_of(values.begin(), values.end(),
+                     [&](const FieldText& value) { return value.name == name; });
+}
+
 /// What the options stand on: the request of a picture or of a file.
 Request base_request(const RequestFiles& files, const std::vector<FieldText>& values) {
   if (!files.picture.empty() && !files.request.empty())
@@ -52,7 +57,11 @@ Request base_request(const RequestFiles& files, const std::vector<FieldText>& va
   if (files.picture.empty()) return request;
   note_input(files.picture);
   request = read_picture_request(files.picture);
-  if (!changes_picture(values)) request.output.chosen = kept_choices(files.picture);
+  const std::string choices = kept_choices(files.picture);
+  if (!changes_picture(values)) request.output.chosen = choices;
+  // A background that was chosen beside the studio would hide other surroundings.
+  if (names(values, "environment") && choices.find("--background ") != std::string::npos)
+    request.settings.background.reset();
   request.output.path = files.picture;
   request.output.path.replace_extension(".again" + files.picture.extension().string());
   const auto output = std::find_if(values.rbegin(), values.rend(),

@@ -145,7 +145,7 @@ void Viewer::take_file(const std::filesystem::path& file) {
       return open(read_picture_request(file));
     case DropKind::environment:
       require_scene(file, "an environment");
-      document_.request.look.environment = file.string();
+      show_environment(file.string(), document_);
       return;
     case DropKind::camera:
       require_scene(file, "a camera");

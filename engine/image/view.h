@@ -152,6 +152,7 @@ inline constexpr double INSIDE_FOV_Y_DEG = 70.0;
 
 /// A camera at that viewpoint onto what the region holds, without a look at the scene's own but for Viewpoint::sensor. Scans are framed by their main parts
 /// (point_sample.h), sites and rooms without half a percent of the points at each end of each axis, sweeps without two.
+/// Things that show little from the usual side of the front are seen from a broader one (framing/broad_side.h).
 [[nodiscard]] Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
                                       std::optional<double> fov_y_deg, const Region& region = {});
 

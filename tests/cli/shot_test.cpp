@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "app/library/request/command_line.h"
 #include "app/library/request/fields.h"
+#include "app/library/request/request_json.h"
 #include "app/library/shot/lights.h"
 #include "app/library/shot/picture_lights.h"
 #include "app/library/shot/resolve.h"
@@ -214,6 +218,40 @@ TEST(Shot, TheStudioTurnsToWhereAScannerLooked) {
   asked = {};
   asked.look.environment = "sky:30,120";
   EXPECT_EQ(shot_of(scene, asked).settings.environment_turn, 0.0F) << "the sun stands where it was asked for";
+}
+
+/// Gaps between the rings of a street that was seen by one scanner are dark.
+TEST(Shot, LandAroundAScannerLiesInTheDark) {
+  OrientedPoints street;
+  for (int i = 0; i < 9000; ++i) {
+    const double along = 5.0 + 0.005 * i, across = std::fmod(i * std::numbers::phi, 1.0) - 0.5;
+    street.emplace_back(glm::dvec3(along, along * across, -1.7), glm::dvec3(0, 0, 1));
+  }
+  Scene scene = scan_scene(street);
+  scene.stations[0].sensor_world = glm::dvec3(0.0);
+  EXPECT_EQ(said(shot_of(scene)),
+            "what one sensor saw: --view sensor --color-by height --look lit --environment-turn 0.75 "
+            "--background 0.004,0.004,0.005 --denoise");
+  EXPECT_TRUE(shot_of(scene).settings.background.has_value());
+  Request asked;
+  asked.look.environment = "sky:30,120";
+  EXPECT_FALSE(shot_of(scene, asked).settings.background.has_value()) << "the sky is seen";
+  asked = {};
+  asked.settings.background = glm::vec3(0.5F);
+  EXPECT_EQ(shot_of(scene, asked).settings.background, glm::vec3(0.5F));
+  asked = {};
+  asked.view.viewpoint = Viewpoint::top;
+  EXPECT_FALSE(shot_of(scene, asked).settings.background.has_value()) << "not from its scanner's place";
+  asked = {};
+  asked.look.style = LOOK_PAPER;
+  EXPECT_FALSE(shot_of(scene, asked).settings.background.has_value());
+  Scene table = scene;
+  table.stations[0].sensor_world = glm::dvec3(27.5, 0.0, 60.0);
+  EXPECT_FALSE(facts_of(table).sees_land) << "it lies below the camera";
+  for (const char* text : {"transparent", "environment"}) {
+    asked = read_request_text(std::string("{\"background\": \"") + text + "\"}", "the test");
+    EXPECT_FALSE(shot_of(scene, asked).settings.background.has_value()) << text;
+  }
 }
 
 TEST(Shot, DrawingsWithoutColoursAreOnWhitePaper) {

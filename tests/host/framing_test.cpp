@@ -206,6 +206,55 @@ TEST(Viewpoint, OfASensorIsFilledWithWhatFillsItsFrame) {
   EXPECT_GE(std::tan(0.5 * whole.fov_y_deg * DEG), 0.28) << "a thing is seen whole";
 }
 
+/// A street before a car, as its scanner's rings have it: a band four times as wide as high, full from end to end.
+TEST(Viewpoint, OfABandIsCroppedAtItsEnds) {
+  OrientedPoints street, thing;
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 160; ++column) {
+      const double across = (column - 79.5) / 80.0, up = (row - 29.5) / 80.0;
+      const glm::dvec3 place = 5.0 * glm::dvec3(across, up, 1.0);
+      if (row < 26 || column % 40 < 20) street.emplace_back(place, glm::dvec3(0, 0, -1));
+      if (std::abs(up + 0.125) < 0.25 * (1.0 - std::abs(across)))
+        thing.emplace_back(place, glm::dvec3(0, 0, -1));
+    }
+  const auto slope = [](const OrientedPoints& seen, double aspect) {
+    Scene scene = scan_scene(seen);
+    scene.up = {0.0, 1.0, 0.0};
+    scene.stations[0].sensor_world = glm::dvec3(0.0);
+    return std::tan(0.5 * viewpoint_camera(scene, Viewpoint::sensor, aspect, {}).fov_y_deg * DEG);
+  };
+  EXPECT_NEAR(slope(street, 16.0 / 9.0), 1.0 / 2.0 / (16.0 / 9.0), 0.01) << "half of its width";
+  EXPECT_NEAR(slope(street, 3.0), 0.25, 0.01) << "filled";
+  OrientedPoints posts;
+  for (int i = 0; i < 8000; ++i) {
+    const double up = std::fmod(i * 0.618034, 1.0) - 0.5,
+                 across = (i % 2 == 0 ? -0.5 : 0.4) + 0.1 * (i / 8000.0);
+    posts.emplace_back(5.0 * glm::dvec3(across, up, 1.0), glm::dvec3(0, 0, -1));
+  }
+  EXPECT_GT(slope(posts, 0.25), 1.1) << "as high as wide: not cropped";
+  EXPECT_GT(slope(thing, 16.0 / 9.0), 0.85 / (16.0 / 9.0)) << "a thing is seen whole";
+}
+
+/// Degrees from the front to the right from where points are seen.
+double azimuth_of_view(const OrientedPoints& points) {
+  const Scene scene = scan_scene(points);
+  const Camera camera = viewpoint_camera(scene, Viewpoint::front, 1.5, {});
+  const glm::dvec3 from = glm::transpose(upright_axes(scene.up)) * (camera.eye - camera.target);
+  return std::atan2(from.x, from.z) / DEG;
+}
+
+TEST(Viewpoint, FlatThingsShowTheirBroadSide) {
+  const auto block = [](const glm::dvec3& size) { return turned_round(box_points(size, true)); };
+  EXPECT_NEAR(azimuth_of_view(block({2.0, 2.0, 3.0})), DEFAULT_AZIMUTH_DEG, 1e-6);
+  EXPECT_NEAR(azimuth_of_view(block({3.0, 2.0, 3.0})), DEFAULT_AZIMUTH_DEG, 1e-6);
+  EXPECT_NEAR(azimuth_of_view(block({2.0, 0.2, 3.0})), DEFAULT_AZIMUTH_DEG, 1e-6) << "a plate across";
+  EXPECT_NEAR(azimuth_of_view(block({0.2, 2.0, 3.0})), DEFAULT_AZIMUTH_DEG + 30.0, 1e-6) << "from its edge";
+  OrientedPoints facade;
+  for (const auto& point : block({0.2, 2.0, 3.0}))
+    if (point.second.x < 0.0) facade.push_back(point);
+  EXPECT_LT(azimuth_of_view(facade), -50.0) << "not from behind";
+}
+
 /// A grid of 640 x 480 whose first columns saw nothing, as those of a stereo camera.
 TEST(Viewpoint, OfADepthCameraIsFilledWithWhatItSaw) {
   OrientedPoints seen;

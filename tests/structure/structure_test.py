@@ -53,7 +53,7 @@ CHOSEN = {"view": (r"\bchoose_viewpoint\(", {"app/library/shot/scene_facts.cpp"}
           "lights": (r"\bdefault_lights\(|\bheadlight\(", {"app/library/shot/lights.cpp", "app/library/shot/picture_lights.cpp"}),
           "a drawing's place": (r"\bmake_sheet\(", {"app/library/shot/resolve.cpp", "app/library/shot/sheet_set.cpp"})}
 CHOOSERS = {"app/library/display_image.cpp", "app/library/picture/denoise.cpp", "app/library/shot/sheet_placement.cpp",
-            "engine/image/framing.cpp", "engine/image/lights.cpp", "engine/image/upright.cpp"}
+            "engine/image/framing/framing.cpp", "engine/image/lights.cpp", "engine/image/upright.cpp"}
 # Comments that begin with "Of", of a thing that they leave unsaid: as of today, and fewer.
 OF_WHAT = re.compile(r"^\s*///? Of ", re.MULTILINE)
 MOST_OF_WHAT = 7

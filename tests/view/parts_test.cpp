@@ -232,6 +232,23 @@ TEST(DocumentRequest, AnotherSceneKeepsWhatAPersonChose) {
                !kept.look.objects.empty());
 }
 
+TEST(DocumentRequest, AnotherSceneGetsItsOwnBackgroundAndTurn) {
+  Document document = loaded_document(disc_scene(1));
+  LoadedPart loaded = *document.loaded;
+  loaded.first.settings.background = document.request.settings.background = glm::vec3(0.1F);
+  loaded.first.settings.environment_turn = document.request.settings.environment_turn = 0.3F;
+  document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
+  EXPECT_FALSE(kept_request(document).settings.background) << "it was chosen for the first";
+  EXPECT_EQ(kept_request(document).settings.environment_turn, 0.0F);
+  show_environment("white", document);
+  EXPECT_FALSE(document.request.settings.background) << "it would hide what was asked for";
+  document.request.settings.background = glm::vec3(0.2F);
+  show_environment("black", document);
+  document.request.settings.environment_turn = 0.5F;
+  EXPECT_EQ(kept_request(document).settings.background, glm::vec3(0.2F)) << "by a person";
+  EXPECT_EQ(kept_request(document).settings.environment_turn, 0.5F);
+}
+
 TEST(DocumentRequest, MoreFilesComeBesideTheSceneAsItIsShown) {
   const Scene scene = disc_scene(1);
   Document document = loaded_document(scene);

@@ -89,6 +89,7 @@ struct Request {
   /// How the picture is sampled, and by what device.
   struct Settings : splatray::Settings {
     std::optional<double> asked_delta_world;  ///< unset = 1/1000 of the scene's diagonal
+    bool asked_environment_seen = false;      ///< in the background, of scans that have another one, too
     double error_goal = 0.0;                  ///< Goal::error; 0 = none
     double seconds_goal = 0.0;                ///< Goal::seconds; 0 = none
     std::string device;                       ///< number or part of a name; empty = best

@@ -70,11 +70,10 @@ bool is_inside(const SceneFacts& facts, const Request& request) {
 const char* resolve_colors(const SceneFacts& facts, const Request& request) {
   const bool inside = is_inside(facts, request);
   if (facts.has_colors) return "rgb";
-  if (request.view.sheet && facts.kind != SceneKind::site && facts.kind != SceneKind::sweep)
-    return ORIENTATION;
+  if (request.view.sheet && facts.kind != SceneKind::site && !facts.sees_land) return ORIENTATION;
   if (asks_for_materials(request.look)) return "plain";
-  const bool land = facts.kind == SceneKind::site || facts.kind == SceneKind::sweep ||
-                    (facts.kind == SceneKind::room && !inside);
+  const bool land =
+      facts.kind == SceneKind::site || facts.sees_land || (facts.kind == SceneKind::room && !inside);
   if (facts.has_intensity) return land ? "height+intensity" : "intensity";
   return land || facts.kind == SceneKind::room ? "height" : "plain";
 }
@@ -122,15 +121,18 @@ void resolve_environment(const Scene& scene, Shot& shot) {
   note(shot, "environment-strength", text_of(request.settings.environment_strength));
 }
 
+/// Whether a scan is looked at from among its points.
+bool is_within(const Request& request) {
+  return request.view.viewpoint == Viewpoint::sensor || request.view.viewpoint == Viewpoint::inside;
+}
+
 /// Turns the studio to where a scan is looked at from among its points, so that its lamps stand beside the camera as they do for what is
 /// seen from outside, and not in the picture.
 void resolve_studio_turn(const Scene& scene, Shot& shot) {
   Request& request = shot.request;
-  const bool within =
-      request.view.viewpoint == Viewpoint::sensor || request.view.viewpoint == Viewpoint::inside;
   const bool in_studio = request.look.environment.empty() && scene.environment_path.empty() &&
                          request.settings.environment_turn == Settings{}.environment_turn;
-  if (scene.stations.empty() || shot.settings.look != LOOK_LIT || !within || !in_studio) return;
+  if (scene.stations.empty() || shot.settings.look != LOOK_LIT || !is_within(request) || !in_studio) return;
   const glm::dmat3 axes = upright_axes(scene.up);
   const glm::dvec3 ahead = shot.view.camera.target - shot.view.camera.eye;
   const double turns =
@@ -140,6 +142,20 @@ void resolve_studio_turn(const Scene& scene, Shot& shot) {
   if (request.settings.environment_turn == Settings{}.environment_turn) return;
   shot.settings.environment_turn = request.settings.environment_turn;
   note(shot, "environment-turn", text_of(request.settings.environment_turn));
+}
+
+/// Gaps between what a scanner met of the land around it are dark in what is seen from there: nothing was met. A studio would be white in
+/// them, as it is exposed for the points.
+void resolve_background(const Scene& scene, const SceneFacts& facts, Shot& shot) {
+  constexpr glm::vec3 DARK(0.004F, 0.004F, 0.005F);
+  Request& request = shot.request;
+  const bool in_studio = request.look.environment.empty() && scene.environment_path.empty();
+  const bool is_asked =
+      request.settings.asked_environment_seen || request.settings.background || request.settings.transparent;
+  const bool is_plain = shot.settings.look != LOOK_LIT && shot.settings.look != LOOK_SCAN;
+  if (!facts.sees_land || !is_within(request) || !in_studio || is_asked || is_plain) return;
+  request.settings.background = shot.settings.background = DARK;
+  note(shot, "background", number_text(DARK));
 }
 
 /// Whether the exposure is the picture's where none is asked for: of scans, whose colours are as bright as their scanner took them,
@@ -356,6 +372,7 @@ Shot resolve(const Request& asked, const Scene& scene, const SceneFacts& facts) 
   shot.settings.reach_world = request.settings.reach_world;
   resolve_environment(scene, shot);
   resolve_studio_turn(whole, shot);
+  resolve_background(whole, facts, shot);
   choose_denoise(shot);
   shot.exposes = !request.look.exposure_ev && exposes_by_default(scene, request, shot.settings.look);
   shot.environment = request.look.environment.empty() ? scene.environment_path : request.look.environment;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/rank.h"
+#include "engine/image/point_sample.h"
 #include "engine/scene/scene_splat.h"
 
 namespace splatray {
@@ -68,6 +69,16 @@ bool has_intensity(const Scene& scene) {
   return high > low && last - first > FEW_SHARE * (high - low);
 }
 
+/// Land lies flat and is looked at along it: what lies flat below a camera is a table.
+bool sees_land(const Scene& scene, SceneKind kind) {
+  constexpr double LEVEL = 0.34;  // sine of 20 degrees
+  if (kind != SceneKind::camera) return kind == SceneKind::sweep;
+  const glm::dmat3 axes = upright_axes(scene.up);
+  const Camera camera = viewpoint_camera(scene, Viewpoint::sensor, 1.0, {});
+  const double rise = glm::dot(glm::normalize(camera.target - camera.eye), axes[1]);
+  return std::abs(rise) < LEVEL && is_flat(main_parts(sample_points(scene)), axes);
+}
+
 }  // namespace
 
 SceneFacts facts_of(const Scene& scene) {
@@ -76,6 +87,7 @@ SceneFacts facts_of(const Scene& scene) {
   facts.views = check_views(scene, facts.kind, choose_viewpoint(scene));
   facts.viewpoint = facts.views.back().viewpoint;
   if (facts.kind == SceneKind::none) return facts;
+  facts.sees_land = sees_land(scene, facts.kind);
   facts.shows_normals = are_normals(scene);
   facts.has_colors = has_colors(scene) && !facts.shows_normals;
   facts.has_intensity = has_intensity(scene);

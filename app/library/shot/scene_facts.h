@@ -17,6 +17,7 @@ struct SceneFacts {
   UpFound up{};                            ///< the way that it stands, and what decided it
   Viewpoint viewpoint = Viewpoint::front;  ///< that suits it
   std::vector<CheckedView> views{};        ///< that were tried (check_views), the last of which is shown
+  bool sees_land = false;                  ///< a sweep, or land that one sensor saw along it
   bool has_colors = false;                 ///< of its own that are not all alike, nor its normals
   bool shows_normals = false;              ///< its colours are its normals, which say nothing of its surface
   bool has_intensity = false;              ///< that varies

@@ -137,11 +137,23 @@ void show_light_at_camera(const SceneLight& light, Document& document) {
   document.loaded = std::make_shared<const LoadedPart>(std::move(loaded));
 }
 
+void show_environment(const std::string& environment, Document& document) {
+  document.request.look.environment = environment;
+  const LoadedPart& loaded = *document.loaded;
+  std::optional<glm::vec3>& background = document.request.settings.background;
+  if (background == loaded.first.settings.background) background = loaded.asked.settings.background;
+}
+
 Request kept_request(const Document& document) {
   const LoadedPart& loaded = *document.loaded;
   Request kept;
   kept.settings = document.request.settings;
   kept.settings.asked_delta_world.reset();
+  // What was chosen for one scene is chosen anew for the next.
+  const Settings &shown = document.request.settings, &chosen = loaded.first.settings;
+  if (shown.background == chosen.background) kept.settings.background = loaded.asked.settings.background;
+  if (shown.environment_turn == chosen.environment_turn)
+    kept.settings.environment_turn = loaded.asked.settings.environment_turn;
   const Request::Look &look = document.request.look, &first = loaded.first.look;
   if (loaded.asked.look.style || look.style != first.style) kept.look.style = look.style;
   if (loaded.asked.look.tone || look.tone != first.tone) kept.look.tone = look.tone;

@@ -31,6 +31,9 @@ namespace splatray {
 /// Shows a light at the camera, which is then that of the scene as it was loaded, instead of those that it was given.
 void show_light_at_camera(const SceneLight& light, Document& document);
 
+/// Shows other surroundings, and them behind the scene where a background was chosen, not asked for.
+void show_environment(const std::string& environment, Document& document);
+
 /// What is kept of a picture when another scene is opened: what is no scene's own.
 [[nodiscard]] Request kept_request(const Document& document);
 /// The request that loads the document's scene with more files and shows it as it is shown.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "app/library/shot/resolve.h"
+#include "app/view/model/document_request.h"
 #include "app/view/ui/field_controls.h"
 #include "app/view/ui/panel_parts.h"
 
@@ -34,24 +35,27 @@ void environment_text(std::string& environment) {
 }
 
 /// One colour behind everything, instead of the surroundings.
-void background_controls(Settings& settings) {
+void background_controls(Request::Settings& settings) {
   bool plain = settings.background.has_value();
-  if (ImGui::Checkbox("plain background", &plain))
+  if (ImGui::Checkbox("plain background", &plain)) {
     settings.background = plain ? std::optional(glm::vec3(1.0F)) : std::nullopt;
+    settings.asked_environment_seen = !plain;
+  }
   if (settings.background) color_edit("background", *settings.background);
 }
 
 }  // namespace
 
 void environment_panel(Document& document) {
-  std::string& environment = document.request.look.environment;
+  std::string environment = document.request.look.environment;
   environment_text(environment);
   for (const char* name : ENVIRONMENTS) {
     if (ImGui::SmallButton(name)) environment = name;
     ImGui::SameLine();
   }
+  if (environment != document.request.look.environment) show_environment(environment, document);
   ImGui::NewLine();
-  Settings& settings = document.request.settings;
+  Request::Settings& settings = document.request.settings;
   ImGui::DragFloat("strength", &settings.environment_strength, 0.01F, 0.0F, 1e6F, "%.3g",
                    ImGuiSliderFlags_AlwaysClamp);
   float degrees = 360.0F * settings.environment_turn;

@@ -141,26 +141,28 @@ Field sun_at_row() {
 
 Field background_row() {
   return value_row(
-      "background", LIGHT, "environment|transparent|R,G,B",
+      "background", LIGHT, "auto|environment|transparent|R,G,B",
       "what is seen where nothing is met: the environment, nothing (a PNG or WebP gets an alpha channel), or "
-      "a "
-      "radiance; light comes from the environment all the same; default environment",
+      "a radiance; light comes from the environment all the same; default auto: the environment, or dark "
+      "around scanners in the open where none is named",
       [](Request& request, const std::string& text) {
         Request::Settings& settings = request.settings;
         std::optional<glm::vec3> radiance;
-        if (text != "environment" && text != "transparent") {
+        if (text != "auto" && text != "environment" && text != "transparent") {
           const std::vector<double> numbers = split_numbers(text, ',', 3);
           const auto usable = [](double x) { return x >= 0.0 && x <= 1e9; };
           if (numbers.empty() || !std::all_of(numbers.begin(), numbers.end(), usable))
-            throw Expected{"environment, transparent or three numbers from 0 to 1e9"};
+            throw Expected{"auto, environment, transparent or three numbers from 0 to 1e9"};
           radiance = glm::vec3(numbers[0], numbers[1], numbers[2]);
         }
         settings.transparent = text == "transparent";
+        settings.asked_environment_seen = text == "environment";
         settings.background = radiance;
       },
       [](const Request& request) -> std::string {
         if (request.settings.transparent) return "transparent";
-        return request.settings.background ? number_text(*request.settings.background) : "environment";
+        if (request.settings.background) return number_text(*request.settings.background);
+        return request.settings.asked_environment_seen ? "environment" : "auto";
       });
 }
 

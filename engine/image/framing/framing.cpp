@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "engine/base/rank.h"
+#include "engine/image/framing/broad_side.h"
+#include "engine/image/framing/sensor_frame.h"
 #include "engine/image/point_sample.h"
 #include "engine/image/scan_kind.h"
 #include "engine/image/view.h"
@@ -30,11 +32,7 @@ constexpr double BOX_SLACK = 0.01;  ///< of the size: walls are rough
 constexpr double SWEEP_OUTSIDE = 0.02;
 /// Where a doll's house is looked at from, degrees: from its front, left and above, as in a section of a building.
 constexpr double DOLL_AZIMUTH_DEG = -32.7, DOLL_ELEVATION_DEG = 42.0, DOLL_FOV_Y_DEG = 34.0;
-constexpr double SENSOR_SHARE = 0.99, SENSOR_MOST_DEG = 100.0;  ///< of what a sensor saw; field of view
-/// Fractions of the points at each end, and of a frame's parts: two rooms fill 0.98 and 1, a disc 0.92, a dragon's range image 0.83, a
-/// head 0.65.
-constexpr double SENSOR_OUTSIDE = 0.005, SENSOR_FILLED = 0.95;
-constexpr double CROP_MOST = 1.4;  ///< of a depth camera's picture, where the one made is wider
+constexpr double SENSOR_SHARE = 0.99;  ///< of what a sensor saw
 
 /// The share of a scan's points that its frame may leave out at each end: things are seen whole.
 double outside_of(SceneKind kind) {
@@ -71,9 +69,11 @@ PointSample framed_points(const Scene& scene, const Region& region) {
     if (outside > 0.0) sample = within_box(sample, upright_axes(scene.up), outside);
   }
   if (sample.size() > 0) return sample;
-  for (int corner = 0; corner < 8; ++corner)
+  for (int corner = 0; corner < 8; ++corner) {
     sample.position.push_back(glm::mix(scene.bounds_min_world, scene.bounds_max_world,
                                        glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0)));
+    sample.normal.push_back(glm::normalize(scene.up));
+  }
   return sample;
 }
 
@@ -154,58 +154,6 @@ Camera camera_into_dollhouse(const Scene& scene, double aspect, double fov_y_deg
   Camera camera = fitted_camera(scene, facing.empty() ? sample.position : facing, aspect, fov_y_deg, axes);
   camera.up = upright[1];
   return camera;
-}
-
-/// What one place saw, on the plane at distance 1 ahead of it.
-struct SensorFrame {
-  glm::dvec2 low{0.0}, high{0.0};  ///< to the right and up, without SENSOR_OUTSIDE of the points at each end
-  double filled = 0.0;             ///< the fraction of its parts, 16 x 12, in which points lie
-};
-
-SensorFrame sensor_frame(const PointSample& sample, const glm::dvec3& sensor, const glm::dvec3& ahead,
-                         const glm::dvec3& up) {
-  constexpr int ACROSS = 16, DOWN = 12;
-  const glm::dvec3 right = glm::normalize(glm::cross(ahead, up)), above = glm::cross(right, ahead);
-  std::vector<glm::dvec2> places;
-  std::array<std::vector<double>, 2> along;
-  for (const glm::dvec3& point : sample.position) {
-    const glm::dvec3 q = point - sensor;
-    const double depth = glm::dot(q, ahead);
-    if (!(depth > 0.0)) return {};
-    places.emplace_back(glm::dot(q, right) / depth, glm::dot(q, above) / depth);
-    for (int axis = 0; axis < 2; ++axis) along[static_cast<std::size_t>(axis)].push_back(places.back()[axis]);
-  }
-  if (places.empty()) return {};
-  SensorFrame frame;
-  frame.low = {value_at(along[0], SENSOR_OUTSIDE), value_at(along[1], SENSOR_OUTSIDE)};
-  frame.high = {value_at(along[0], 1.0 - SENSOR_OUTSIDE), value_at(along[1], 1.0 - SENSOR_OUTSIDE)};
-  std::array<bool, ACROSS * DOWN> met{};
-  for (const glm::dvec2& place : places) {
-    const glm::dvec2 cell = glm::dvec2(ACROSS, DOWN) * (place - frame.low) / (frame.high - frame.low);
-    if (cell.x >= 0.0 && cell.x < ACROSS && cell.y >= 0.0 && cell.y < DOWN)
-      met[static_cast<std::size_t>(static_cast<int>(cell.y) * ACROSS + static_cast<int>(cell.x))] = true;
-  }
-  frame.filled = share_of(static_cast<std::size_t>(std::count(met.begin(), met.end(), true)), met.size());
-  return frame;
-}
-
-/// Turns a camera in the place of a sensor whose picture is full to the picture's middle, and crops that to the shape of the one made,
-/// by CROP_MOST at most; else leaves it and returns false.
-bool fill_with_frame(const PointSample& sample, double aspect, Camera& camera) {
-  const double distance = glm::distance(camera.eye, camera.target);
-  glm::dvec3 ahead = (camera.target - camera.eye) / distance;
-  SensorFrame frame = sensor_frame(sample, camera.eye, ahead, camera.up);
-  if (frame.filled < SENSOR_FILLED) return false;
-  const glm::dvec2 middle = 0.5 * (frame.low + frame.high);
-  const glm::dvec3 right = glm::normalize(glm::cross(ahead, camera.up));
-  ahead = glm::normalize(ahead + middle.x * right + middle.y * glm::cross(right, ahead));
-  frame = sensor_frame(sample, camera.eye, ahead, camera.up);
-  if (frame.filled < SENSOR_FILLED) return false;
-  camera.target = camera.eye + distance * ahead;
-  const glm::dvec2 half = 0.5 * (frame.high - frame.low) / glm::dvec2(aspect, 1.0);
-  const double slope = std::max(std::min(half.x, half.y), std::max(half.x, half.y) / CROP_MOST);
-  camera.fov_y_deg = std::clamp(2.0 * std::atan(slope) / DEG, 1.0, SENSOR_MOST_DEG);
-  return true;
 }
 
 /// From the first sensor's place, as wide as holds what it saw, or filled with it where that fills a frame.
@@ -335,7 +283,7 @@ Camera camera_inside(const Scene& scene, double fov_y_deg, const Region& region)
   for (const glm::dvec3& point : sample.position) middle += point / static_cast<double>(sample.size());
   glm::dvec3 ahead = middle - camera.eye;
   ahead -= glm::dot(ahead, axes[1]) * axes[1];
-  if (glm::length(ahead) < CENTRAL * scene.diagonal_world()) ahead = size.x > size.z ? axes[0] : -axes[2];
+  if (glm::length(ahead) <= CENTRAL * scene.diagonal_world()) ahead = size.x > size.z ? axes[0] : -axes[2];
   const double distance = 0.5 * std::max({size.x, size.z, scene.root.unit_world});
   camera.up = axes[1];
   camera.fov_y_deg = fov_y_deg;
@@ -392,7 +340,10 @@ Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
     case Viewpoint::front:
       break;
   }
-  return angled_camera(scene, aspect, fov, DEFAULT_AZIMUTH_DEG, DEFAULT_ELEVATION_DEG, region);
+  const double azimuth_deg = kind_of_scan(scene) == SceneKind::object
+                                 ? broad_azimuth_deg(framed_points(scene, region), axes)
+                                 : DEFAULT_AZIMUTH_DEG;
+  return angled_camera(scene, aspect, fov, azimuth_deg, DEFAULT_ELEVATION_DEG, region);
 }
 
 Camera default_camera(const Scene& scene, double aspect) {
