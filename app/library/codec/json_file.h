@@ -14,9 +14,8 @@ namespace splatray {
 /// What a text of JSON holds. `refuse(found, expected)`, which throws, is called for one that is none.
 template <class Refuse>
 [[nodiscard]] nlohmann::ordered_json parse_json(const std::string& text, const Refuse& refuse) {
-  using Json = nlohmann::ordered_json;
-  if (const std::optional<std::string> fault = json_fault<Json>(text)) refuse(*fault, "JSON");
-  return Json::parse(text);
+  if (const auto fault = json_fault<nlohmann::ordered_json>(text)) refuse(*fault, "JSON");
+  return nlohmann::ordered_json::parse(text);
 }
 
 /// The same of a file; one that is not there is refused, too.

@@ -78,10 +78,10 @@ CellLight cell_light(const Sheet& sheet, const Cells& grid, std::span<const vec4
       const std::size_t at = row * grid.width + x;
       result.light[at] = vec3(lit[at]) / glm::max(vec3(cells.base[at]), vec3(BASE_LEAST));
       const auto [middle_x, middle_y] = grid.middle(fine, x, y);
+      const vec2 middle(static_cast<float>(middle_x), static_cast<float>(middle_y));
       float sum = 0.0F, count = 0.0F;
       grid.for_each_pixel(fine, x, y, [&](std::size_t pixel) {
-        const vec2 way(static_cast<float>(pixel % fine.width) - static_cast<float>(middle_x),
-                       static_cast<float>(pixel / fine.width) - static_cast<float>(middle_y));
+        const vec2 way = vec2(pixel % fine.width, pixel / fine.width) - middle;
         sum += likeness.of(cells.aov[at], fine.aov[pixel], way) > ALIKE ? 1.0F : 0.0F;
         count += 1.0F;
       });

@@ -13,7 +13,7 @@ namespace {
 
 /// Fractions of the points at each end, and of a frame's parts: two rooms fill 0.98 and 1, a disc 0.92, a dragon's range image 0.83, a
 /// head 0.65.
-constexpr double OUTSIDE = 0.005, FILLED = 0.95;
+constexpr double FRAME_ENDS = 0.005, FILLED = 0.95;
 constexpr double BAND_FILLED = 0.5;  ///< of the parts at each end of a band, where a thing ends in a point
 /// A band's width over its height: rings of a scanner with a camera's field are 3 to 4 times as wide as high, a sofa 2.4.
 constexpr double BAND_ASPECT = 3.0;
@@ -21,7 +21,7 @@ constexpr double BAND_CROP_MOST = 2.0;
 
 /// What one place saw, on the plane at distance 1 ahead of it.
 struct SensorFrame {
-  glm::dvec2 low{0.0}, high{0.0};  ///< to the right and up, without OUTSIDE of the points at each end
+  glm::dvec2 low{0.0}, high{0.0};  ///< to the right and up, without FRAME_ENDS of the points at each end
   double filled = 0.0;             ///< the fraction of its parts, 16 x 12, in which points lie
   double ends = 0.0;               ///< the same of the eighth at its left or right end, whichever is less
 };
@@ -51,8 +51,8 @@ SensorFrame sensor_frame(const PointSample& sample, const glm::dvec3& sensor, co
   }
   if (places.empty()) return {};
   SensorFrame frame;
-  frame.low = {value_at(along[0], OUTSIDE), value_at(along[1], OUTSIDE)};
-  frame.high = {value_at(along[0], 1.0 - OUTSIDE), value_at(along[1], 1.0 - OUTSIDE)};
+  frame.low = {value_at(along[0], FRAME_ENDS), value_at(along[1], FRAME_ENDS)};
+  frame.high = {value_at(along[0], 1.0 - FRAME_ENDS), value_at(along[1], 1.0 - FRAME_ENDS)};
   FrameParts met{};
   for (const glm::dvec2& place : places) {
     const glm::dvec2 cell = glm::dvec2(ACROSS, DOWN) * (place - frame.low) / (frame.high - frame.low);
