@@ -12,8 +12,8 @@
 namespace splatray {
 namespace {
 
-constexpr int TURNS = 24;
-constexpr double TURN_DEG = 360.0 / TURNS;
+constexpr int HALF = 12;  ///< of a full turn, in steps
+constexpr double TURN_DEG = 180.0 / HALF;
 /// Shares of the widest silhouette. Sixteen models and scans have 0.76 to 1 from the usual side, a cube seen square to a face 0.71, a guitar near
 /// its edge 0.70, a plate 30 degrees from square 0.87.
 constexpr double NARROW = 0.72, BROAD = 0.85;
@@ -52,20 +52,20 @@ double broad_azimuth_deg(const PointSample& sample, const glm::dmat3& axes) {
     const double azimuth = (DEFAULT_AZIMUTH_DEG + turn * TURN_DEG) * std::numbers::pi / 180.0;
     return std::cos(azimuth) * axes[2] + std::sin(azimuth) * axes[0];
   };
-  std::array<std::size_t, TURNS> seen{};
-  for (int turn = 0; turn < TURNS / 2; ++turn)
-    seen[static_cast<std::size_t>(turn)] = seen[static_cast<std::size_t>(turn + TURNS / 2)] =
+  std::array<std::size_t, HALF> seen{};  // from behind the same
+  for (int turn = 0; turn < HALF; ++turn)
+    seen[static_cast<std::size_t>(turn)] =
         silhouette(sample, glm::cross(axes[1], towards(turn)), axes[1], cell);
   const auto widest = static_cast<double>(*std::max_element(seen.begin(), seen.end()));
   if (static_cast<double>(seen[0]) >= NARROW * widest) return DEFAULT_AZIMUTH_DEG;
   glm::dvec3 facing = mean_normal(sample);
   facing -= glm::dot(facing, axes[1]) * axes[1];
   const bool one_sided = glm::length(facing) > ONE_SIDED;
-  for (int turn = 1; turn <= TURNS / 2; ++turn)
-    for (const int there : {turn, TURNS - turn}) {
-      const bool faces = !one_sided || glm::dot(facing, towards(there % TURNS)) > 0.0;
-      if (faces && static_cast<double>(seen[static_cast<std::size_t>(there % TURNS)]) >= BROAD * widest)
-        return DEFAULT_AZIMUTH_DEG + (there <= TURNS / 2 ? there : there - TURNS) * TURN_DEG;
+  for (int turns = 1; turns <= HALF; ++turns)
+    for (const int turn : {turns, -turns}) {
+      const bool faces = !one_sided || glm::dot(facing, towards(turn)) > 0.0;
+      if (faces && static_cast<double>(seen[static_cast<std::size_t>(turn + HALF) % HALF]) >= BROAD * widest)
+        return DEFAULT_AZIMUTH_DEG + turn * TURN_DEG;
     }
   return DEFAULT_AZIMUTH_DEG;
 }

@@ -340,10 +340,13 @@ Camera viewpoint_camera(const Scene& scene, Viewpoint viewpoint, double aspect,
     case Viewpoint::front:
       break;
   }
-  const double azimuth_deg = kind_of_scan(scene) == SceneKind::object
-                                 ? broad_azimuth_deg(framed_points(scene, region), axes)
-                                 : DEFAULT_AZIMUTH_DEG;
-  return angled_camera(scene, aspect, fov, azimuth_deg, DEFAULT_ELEVATION_DEG, region);
+  const PointSample sample = framed_points(scene, region);
+  const double azimuth_deg =
+      kind_of_scan(scene) == SceneKind::object ? broad_azimuth_deg(sample, axes) : DEFAULT_AZIMUTH_DEG;
+  Camera camera = fitted_camera(scene, sample.position, aspect, fov,
+                                angled_axes(axes, azimuth_deg, DEFAULT_ELEVATION_DEG));
+  camera.up = axes[1];
+  return camera;
 }
 
 Camera default_camera(const Scene& scene, double aspect) {
