@@ -99,6 +99,11 @@ void resolve_scan_look(const Scene& scene, const SceneFacts& facts, Shot& shot) 
   note(shot, "look", all_lit ? "scan" : "lit");
 }
 
+/// Whether nothing but the studio is asked for around a scene.
+bool is_in_studio(const Scene& scene, const Request& request) {
+  return request.look.environment.empty() && scene.environment_path.empty();
+}
+
 bool has_own_lights(const Scene& scene, const Request& request, std::uint32_t look) {
   return !scene.lights.empty() && !request.look.lights && look_style(look).lights;
 }
@@ -108,7 +113,7 @@ bool has_own_lights(const Scene& scene, const Request& request, std::uint32_t lo
 void resolve_environment(const Scene& scene, Shot& shot) {
   constexpr double MOST_STRENGTH = 1e6;  // of --environment-strength
   Request& request = shot.request;
-  const bool open = request.look.environment.empty() && scene.environment_path.empty() &&
+  const bool open = is_in_studio(scene, request) &&
                     request.settings.environment_strength == Settings{}.environment_strength;
   const double level = own_light_level(scene);
   if (!open || !has_own_lights(scene, request, shot.settings.look) || !(level > 0.0) || !std::isfinite(level))
@@ -130,8 +135,8 @@ bool is_within(const Request& request) {
 /// seen from outside, and not in the picture.
 void resolve_studio_turn(const Scene& scene, Shot& shot) {
   Request& request = shot.request;
-  const bool in_studio = request.look.environment.empty() && scene.environment_path.empty() &&
-                         request.settings.environment_turn == Settings{}.environment_turn;
+  const bool in_studio =
+      is_in_studio(scene, request) && request.settings.environment_turn == Settings{}.environment_turn;
   if (scene.stations.empty() || shot.settings.look != LOOK_LIT || !is_within(request) || !in_studio) return;
   const glm::dmat3 axes = upright_axes(scene.up);
   const glm::dvec3 ahead = shot.view.camera.target - shot.view.camera.eye;
@@ -149,11 +154,11 @@ void resolve_studio_turn(const Scene& scene, Shot& shot) {
 void resolve_background(const Scene& scene, const SceneFacts& facts, Shot& shot) {
   constexpr glm::vec3 DARK(0.004F, 0.004F, 0.005F);
   Request& request = shot.request;
-  const bool in_studio = request.look.environment.empty() && scene.environment_path.empty();
   const bool is_asked =
       request.settings.asked_environment_seen || request.settings.background || request.settings.transparent;
   const bool is_plain = shot.settings.look != LOOK_LIT && shot.settings.look != LOOK_SCAN;
-  if (!facts.sees_land || !is_within(request) || !in_studio || is_asked || is_plain) return;
+  if (!facts.sees_land || !is_within(request) || !is_in_studio(scene, request) || is_asked || is_plain)
+    return;
   request.settings.background = shot.settings.background = DARK;
   note(shot, "background", number_text(DARK));
 }
@@ -281,8 +286,7 @@ bool is_chosen(const Material& material) {
 
 std::uint32_t resolve_look(const Scene& scene, const Request& request) {
   if (request.look.style) return *request.look.style;
-  const bool plain = scene.lights.empty() && request.look.environment.empty() &&
-                     scene.environment_path.empty() && !request.look.lights;
+  const bool plain = scene.lights.empty() && is_in_studio(scene, request) && !request.look.lights;
   const bool materials = asks_for_materials(request.look) ||
                          std::any_of(scene.materials.begin(), scene.materials.end(), is_chosen);
   return !scene.stations.empty() && plain && !materials ? LOOK_SCAN : LOOK_LIT;
