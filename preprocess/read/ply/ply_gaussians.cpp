@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "preprocess/read/scan/gaussian_discs.h"
+#include "preprocess/read/scan/gaussian_surface.h"
 
 namespace splatray {
 namespace {
@@ -144,7 +144,7 @@ Gaussian packed_gaussian(const std::vector<double>& row, const Places<4>& at, co
 }
 
 std::uint64_t read_packed(PlyBody& in, const PlyElement& element, const std::vector<GaussianChunk>& chunks,
-                          GaussianDiscs& discs) {
+                          GaussianSurface& surface) {
   const Places<4> at = places_of(in, element, PACKED);
   for (const std::size_t property : at)
     if (element.properties[property].type != PlyType::uint32)
@@ -156,16 +156,16 @@ std::uint64_t read_packed(PlyBody& in, const PlyElement& element, const std::vec
             " packed Gaussians, expected " + std::to_string(wanted));
   std::uint64_t row_number = 0;
   return read_values(in, element, [&](const std::vector<double>& row) {
-    discs.add(packed_gaussian(row, at, chunks[row_number++ / ROWS_OF_A_CHUNK]));
+    surface.add(packed_gaussian(row, at, chunks[row_number++ / ROWS_OF_A_CHUNK]));
   });
 }
 
-std::uint64_t read_plain(PlyBody& in, const PlyElement& element, GaussianDiscs& discs) {
+std::uint64_t read_plain(PlyBody& in, const PlyElement& element, GaussianSurface& surface) {
   const Places<13> at = places_of(in, element, PLAIN);
   std::optional<std::size_t> thickness;
   if (has(element, THICKNESS)) thickness = places_of(in, element, std::array{THICKNESS})[0];
-  return read_values(in, element,
-                     [&](const std::vector<double>& row) { discs.add(plain_gaussian(row, at, thickness)); });
+  return read_values(
+      in, element, [&](const std::vector<double>& row) { surface.add(plain_gaussian(row, at, thickness)); });
 }
 
 }  // namespace
@@ -180,14 +180,14 @@ bool PlyGaussians::are_in(const PlyElement& element) {
 
 std::uint64_t PlyGaussians::read(PlyBody& in, const PlyElement& element) {
   if (element.name == CHUNK_ELEMENT) return read_chunks(in, element, chunks_);
-  discs_.reserve(in.most_rows(element));
-  return is_packed(element) ? read_packed(in, element, chunks_, discs_) : read_plain(in, element, discs_);
+  surface_.reserve(in.most_rows(element));
+  return is_packed(element) ? read_packed(in, element, chunks_, surface_) : read_plain(in, element, surface_);
 }
 
-Points PlyGaussians::take(const PlyBody& in, std::string& note) {
-  Points points = discs_.take();
-  note = discs_.note();
-  if (points.size() == 0) throw_unreadable(in.path(), note + "; expected at least one disc");
+Points PlyGaussians::take(const PlyBody& in, const Progress& progress, std::string& note) {
+  Points points = surface_.take({"surface of Gaussians", progress});
+  note = surface_.note();
+  if (points.size() == 0) throw_unreadable(in.path(), note + "; expected at least one point");
   return points;
 }
 

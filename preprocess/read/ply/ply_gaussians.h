@@ -6,7 +6,7 @@
 
 #include "preprocess/points.h"
 #include "preprocess/read/ply/ply_body.h"
-#include "preprocess/read/scan/gaussian_discs.h"
+#include "preprocess/read/scan/gaussian_surface.h"
 
 namespace splatray {
 
@@ -26,12 +26,12 @@ class PlyGaussians {
   /// Reads an element's rows; `in` stands on the first. How many there are, which may be less than the element declares. Throws
   /// Error (input_unreadable) where properties or chunks are missing.
   std::uint64_t read(PlyBody& in, const PlyElement& element);
-  /// The discs, behind the last element; what became of the Gaussians goes to `note`. Throws Error (input_unreadable) where none is left.
-  [[nodiscard]] Points take(const PlyBody& in, std::string& note);
+  /// The points, behind the last element; what became of the Gaussians goes to `note`. Throws Error (input_unreadable) where none is left.
+  [[nodiscard]] Points take(const PlyBody& in, const Progress& progress, std::string& note);
 
  private:
   std::vector<GaussianChunk> chunks_;
-  GaussianDiscs discs_;
+  GaussianSurface surface_;
 };
 
 }  // namespace splatray

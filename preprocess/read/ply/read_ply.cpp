@@ -218,7 +218,7 @@ Mesh read_ply(const std::filesystem::path& path, const ReadOptions& options, con
   in.finish();
   if (gaussians) {
     std::string note;
-    mesh.vertices = gaussians->take(in, note);
+    mesh.vertices = gaussians->take(in, listener.progress, note);
     listener.note(path, note);
   }
   cut.report(path, options.scans, listener);
