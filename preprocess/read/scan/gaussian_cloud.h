@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "preprocess/base/box_cells.h"
+#include "preprocess/read/scan/box_cells.h"
 
 namespace splatray {
 
@@ -49,7 +49,7 @@ class GaussianCloud {
     std::uint32_t search = 0;
   };
 
-  /// Of Gaussians with finite numbers and a deviation above 0 each; at least one.
+  /// Takes at least one; each has finite numbers and a deviation above 0.
   explicit GaussianCloud(const std::vector<Gaussian>& gaussians);
 
   /// Out of the capture at a place: against the gradient of its density, blurred by the median Gaussian's deviation so that a surface has a

@@ -40,7 +40,7 @@ glm::vec3 linear_color(const glm::dvec3& encoded) {
   return {srgb_to_linear(shown.x), srgb_to_linear(shown.y), srgb_to_linear(shown.z)};
 }
 
-/// Of the ellipse that its two greater deviations span, over pi.
+/// The area of the ellipse that its two greater deviations span, over pi.
 double area_of(const Gaussian& one) {
   const glm::ivec3 order = axes_by_length(one);
   return one.deviation_world[order[1]] * one.deviation_world[order[2]];

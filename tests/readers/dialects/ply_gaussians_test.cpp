@@ -10,7 +10,7 @@
 namespace splatray {
 namespace {
 
-/// Of a Gaussian alone: two on each side, the first in its middle.
+/// A Gaussian alone shows two on each side, the first in its middle.
 constexpr std::size_t POINTS_OF_ONE = 4;
 
 std::string plain_head(int count, const std::string& more = "") {

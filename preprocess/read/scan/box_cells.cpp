@@ -1,4 +1,4 @@
-#include "preprocess/base/box_cells.h"
+#include "preprocess/read/scan/box_cells.h"
 
 #include <tbb/parallel_sort.h>
 
