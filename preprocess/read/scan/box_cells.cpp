@@ -28,7 +28,9 @@ BoxCells::BoxCells(const std::vector<Bounds>& boxes, double finest_world) {
   in_cells_.reserve(entries.size());
   for (const KeyedIndex& entry : entries) {
     const auto at = static_cast<std::uint32_t>(in_cells_.size());
-    cells_.try_emplace(entry.key, Range{at, at}).first->second.end = at + 1;
+    Range& cell = cells_.try_emplace(entry.key, Range{at, at}).first->second;
+    if (cell.end - cell.begin == MOST_OF_CELL) continue;
+    cell.end = at + 1;
     in_cells_.push_back(entry.index);
   }
 }

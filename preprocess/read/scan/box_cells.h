@@ -20,6 +20,9 @@ class BoxCells {
   /// `finest_world`: the least width of a cell; wider where a grid of them would have more than 2^19 along a side.
   BoxCells(const std::vector<Bounds>& boxes, double finest_world);
 
+  /// Boxes of a cell beyond so many are not found: a file may have all of its boxes in one place, and what looks for each would take hours.
+  static constexpr std::uint32_t MOST_OF_CELL = 1U << 12;
+
   /// Calls visit(number of the box) for each in a cell that the box from `low` to `high` meets: all that overlap it, some beside it, and
   /// one in several cells as often.
   template <class Visit>
