@@ -74,7 +74,7 @@ TEST(LevelContents, SayWhatTheyDoNotHold) {
                            "rot_1", "rot_2", "rot_3"})
     properties += std::string("property float ") + name + '\n';
   expect_note(notes_of("capture", properties, "0 0 0 9 -1 -2 -5 1 0 0 0"),
-              "the radii, ellipses, up direction 0,-1,0 (it is read with 0,0,1) of its points");
+              "the up direction 0,-1,0 (it is read with 0,0,1) of its points");
 }
 
 }  // namespace
